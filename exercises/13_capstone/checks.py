@@ -1,0 +1,488 @@
+"""Is the last map on /map a map of the rooms, and has the robot seen them without touching anything?
+
+The truth is computed from the shapes of the world in the recording, from the simulator's poses of the robot, and from the
+scans as they were sent. Wrong maps are compared with those of common misconceptions.
+"""
+
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from gz_course.grader.printable import shown
+from gz_course.grader.score.check import Finding
+
+RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM = 0.1, 100, 80, -5.0, -4.0  # [m], [cells], [cells], [m], [m]
+# From Nav2's map server, as shares: https://docs.nav2.org/configuration/packages/configuring-map-server.html
+OCCUPIED, FREE = 65, 25  # at least, at most
+OFF = 0.15  # [m] from the middle of an occupied cell to an obstacle: one cell, and half a cell for its middle
+HITS = 3  # of the scanner, in one cell, that make it a wall which the map must show
+WALLS, TRUE, SEEN, NEVER_SEEN = 0.9, 0.92, 0.9, 0.05  # shares of cells
+FEWEST = 30  # cells; fewer say nothing about a map
+FITS = 0.8  # of the occupied cells, to fit a misconception
+EARLY = 0.5  # of the occupied cells of the first map that the scanner had not hit yet: the map was known before
+LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
+MOVED = 0.3  # [m]
+MARGIN = 0.003  # [m] between the robot and what it does not touch
+MAP, SCAN = "topics/map", "topics/scan"
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """The obstacles from above: `boxes` with half sizes (n, 2) [m], `round` with radii; poses are x, y [m], yaw [rad]."""
+
+    boxes: list
+    cylinders: list
+
+    def distances(self, points):
+        """Return the distances [m] from points (n, 2) to each obstacle, shape (obstacles, n), and their names."""
+        out, names = [], []
+        for name, (x, y, yaw), half in self.boxes:
+            d, c, s = points - (x, y), np.cos(yaw), np.sin(yaw)
+            local = np.abs(np.stack([d[:, 0] * c + d[:, 1] * s, d[:, 1] * c - d[:, 0] * s], 1)) - half
+            out.append(np.linalg.norm(np.maximum(local, 0), axis=1))
+            names.append(name)
+        for name, (x, y, _), radius in self.cylinders:
+            out.append(np.maximum(np.linalg.norm(points - (x, y), axis=1) - radius, 0))
+            names.append(name)
+        return np.array(out).reshape(len(out), len(points)), names
+
+    def nearest(self, points):
+        return self.distances(points)[0].min(axis=0, initial=np.inf)
+
+
+@dataclass(frozen=True)
+class Scans:
+    """All scans until a time: the true `pose` of each (n, 3), its `ranges` (n, rays) [m], and the `angles` (rays,).
+
+    `hit` says which rays have hit something; `ends` are the ranges, with `farthest` for the others.
+    """
+
+    pose: np.ndarray
+    ranges: np.ndarray
+    angles: np.ndarray
+    hit: np.ndarray
+    farthest: float
+
+    @property
+    def ends(self):
+        return np.where(self.hit, self.ranges, self.farthest)
+
+
+def shapes(recording):
+    """Return what stands in the world, without the ground and the robot."""
+    boxes, cylinders = [], []
+    for entity in recording.entities("world"):
+        model, *rest = entity.removeprefix("world/").split("/")
+        held = recording.static(entity)
+        if len(rest) != 2 or model in ("robot", "path", "ground_plane"):
+            continue
+        pose = flat(recording.poses(f"world/{model}"))
+        if "Boxes3D:half_sizes" in held:
+            boxes.append((model, pose, np.array(held["Boxes3D:half_sizes"][:2])))
+        elif "Cylinders3D:radii" in held:
+            cylinders.append((model, pose, float(held["Cylinders3D:radii"])))
+    return Shapes(boxes, cylinders)
+
+
+def flat(poses):
+    """Return x, y [m] and yaw [rad] of the first of some poses."""
+    (x, y, _), (qx, qy, qz, qw) = poses.positions[0], poses.quaternions[0]
+    return float(x), float(y), float(np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)))
+
+
+def truth(recording, times):
+    """Return the robot's true x, y [m] and yaw [rad] at times [s], shape (n, 3)."""
+    at = recording.signal("truth/robot/x").times / 1e9
+    if not len(at):
+        return np.zeros((len(times), 3))
+    return np.stack([np.interp(times, at, recording.signal(f"truth/robot/{n}").values) for n in ("x", "y", "yaw")], 1)
+
+
+def scans(recording, until):
+    """Return the scans that arrived until a time [s]."""
+    arrived, rows = recording.arrays(f"{SCAN}/ranges")
+    number = int(np.sum(arrived / 1e9 <= until))
+    values = {n: recording.signal(f"{SCAN}/{n}").values for n in ("range_min", "range_max", "angle_min")}
+    step, stamps = recording.signal(f"{SCAN}/angle_increment").values, recording.signal(f"{SCAN}/header/stamp").values
+    if not number:
+        return Scans(np.zeros((0, 3)), np.zeros((0, 1)), np.zeros(1), np.zeros((0, 1), dtype=bool), 0.0)
+    ranges = np.stack(rows[:number])
+    hit = (ranges > values["range_min"][0]) & (ranges < values["range_max"][0])
+    angles = values["angle_min"][0] + step[0] * np.arange(ranges.shape[1])
+    return Scans(truth(recording, stamps[:number]), ranges, angles, hit, float(values["range_max"][0]))
+
+
+def cells(points):
+    """Return how many of the points (n, 2) [m] lie in each cell."""
+    column = np.floor((points[:, 0] - LEFT) / RESOLUTION).astype(int)
+    row = np.floor((points[:, 1] - BOTTOM) / RESOLUTION).astype(int)
+    inside = (row >= 0) & (row < HEIGHT) & (column >= 0) & (column < WIDTH)
+    return np.bincount(row[inside] * WIDTH + column[inside], minlength=WIDTH * HEIGHT).reshape(HEIGHT, WIDTH)
+
+
+def middles():
+    """Return the middles of all cells (cells, 2) [m], row by row."""
+    x, y = np.meshgrid(LEFT + (np.arange(WIDTH) + 0.5) * RESOLUTION, BOTTOM + (np.arange(HEIGHT) + 0.5) * RESOLUTION)
+    return np.stack([x.ravel(), y.ravel()], 1)
+
+
+def hits(scan, pose=None, angles=None, which=None):
+    """Return the points (n, 2) [m] of all hits, or of the rays `which`, as if pose or angles had been others."""
+    pose = scan.pose if pose is None else pose
+    direction = (pose[:, 2:] + scan.angles) if angles is None else angles
+    which = scan.hit if which is None else which
+    ends = scan.ends
+    x, y = pose[:, :1] + ends * np.cos(direction), pose[:, 1:2] + ends * np.sin(direction)
+    return np.stack([x[which], y[which]], 1)
+
+
+def along(scan, start, end, which):
+    """Return how many points lie in each cell: points on the rays `which`, half a cell apart, from `start` to `end`."""
+    steps = np.arange(0, scan.farthest + 2, RESOLUTION / 2)
+    number, ray = np.nonzero(which)
+    first, last = np.broadcast_to(start, which.shape)[number, ray], np.broadcast_to(end, which.shape)[number, ray]
+    index, step = np.nonzero((steps >= first[:, None]) & (steps < last[:, None]))
+    direction = scan.pose[number, 2] + scan.angles[ray]
+    x = scan.pose[number[index], 0] + steps[step] * np.cos(direction[index])
+    y = scan.pose[number[index], 1] + steps[step] * np.sin(direction[index])
+    return cells(np.stack([x, y], 1))
+
+
+def grown(marked):
+    """Return the cells that are marked, or beside one that is, also across the corner."""
+    wide = np.pad(marked, 1)
+    parts = [wide[dy : dy + marked.shape[0], dx : dx + marked.shape[1]] for dy in range(3) for dx in range(3)]
+    return np.logical_or.reduce(parts)
+
+
+def info(recording, name):
+    """Return the last value of a field of `info`; NaN if there is none."""
+    values = recording.signal(f"{MAP}/info/{name}").values
+    return float(values[-1]) if len(values) else float("nan")
+
+
+def grid(recording, number=-1):
+    """Return a map as the cells of the task (80, 100), and when it came [s]; None if there is none that can be read.
+
+    A map with as many cells as asked for is read as the task says. Another one is read by its own layout.
+    """
+    times, rows = recording.arrays(f"{MAP}/data")
+    if not len(rows):
+        return None, 0.0
+    data, at = np.asarray(rows[number]), float(times[number] / 1e9)
+    width, height, size = info(recording, "width"), info(recording, "height"), info(recording, "resolution")
+    if len(data) == WIDTH * HEIGHT and (width == WIDTH or not width * height == len(data)):
+        return data.reshape(HEIGHT, WIDTH), at
+    if not (width * height == len(data) and size > 0):
+        return None, at
+    origin = [info(recording, f"origin/position/{axis}") for axis in "xy"]
+    place = np.clip(np.floor((middles() - origin) / size), -1, 1e6).astype(int)
+    inside = (place[:, 0] >= 0) & (place[:, 0] < width) & (place[:, 1] >= 0) & (place[:, 1] < height)
+    out = np.full(WIDTH * HEIGHT, -1.0)
+    out[inside] = data[place[inside, 1] * int(width) + place[inside, 0]]
+    return out.reshape(HEIGHT, WIDTH), at
+
+
+def no_map(recording):
+    """Return why there is no map that can be read."""
+    if not recording.has(f"{MAP}/count"):
+        return "no map was published"
+    number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
+    size = f"{info(recording, 'width'):g} x {info(recording, 'height'):g}"
+    return f"data of the last map had {number} numbers, and info says {size} cells"
+
+
+def layout(recording, parameters):
+    """Pass if frame, resolution, size, origin and the number of cells are those of the task."""
+    expected = "frame odom, 100 x 80 cells of 0.1 m, origin (-5, -4) with orientation.w 1, 8000 numbers"
+    if not recording.has(f"{MAP}/info/width"):
+        return Finding(False, expected, "no map was published")
+    width, height, size = info(recording, "width"), info(recording, "height"), info(recording, "resolution")
+    x, y, w = (info(recording, f"origin/{n}") for n in ("position/x", "position/y", "orientation/w"))
+    number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
+    frames = [line.text for line in recording.lines(f"{MAP}/header/frame_id")]
+    frame = frames[-1] if frames else ""
+    seen = f"frame {shown(frame, 40)!r}, {width:g} x {height:g} cells of {size:.3g} m, origin ({x:g}, {y:g})"
+    seen += f" with orientation.w {w:g}, {number} numbers"
+    right = {
+        f"frame_id is {shown(frame, 40)!r}": frame == "odom",
+        "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
+        f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
+        f"info.resolution is {size:g}, it is in metres": abs(size - RESOLUTION) < 1e-4,
+        f"info.origin is ({x:g}, {y:g}), the corner of the first cell is at (-5, -4)": hypot(x - LEFT, y - BOTTOM)
+        < 1e-3,
+        "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
+        f"data has {number} numbers": number == WIDTH * HEIGHT,
+    }
+    wrong = [words for words, holds in right.items() if not holds]
+    return Finding(not wrong, expected, seen, explanation="; ".join(wrong))
+
+
+def walls(recording, parameters):
+    """Pass if the cells that the scanner has hit are occupied in the last map, or a cell beside them is."""
+    expected = f"{WALLS:.0%} of the cells that the scanner hit are occupied, to one cell"
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    scan = scans(recording, at - LATE)
+    wanted = cells(hits(scan)) >= HITS
+    if wanted.sum() < FEWEST:
+        return Finding(False, expected, "the scanner hit nothing before the last map came")
+    share = float(grown(said >= OCCUPIED)[wanted].mean())
+    measured = f"{share:.0%} of {wanted.sum()} cells with hits are occupied"
+    if share >= WALLS:
+        return Finding(True, expected, measured)
+    return Finding(False, expected, measured, round(at, 3), explanation=why(recording, said, scan))
+
+
+def no_ghosts(recording, parameters):
+    """Pass if nearly all occupied cells of the last map are at obstacles, and the first map knows only what was seen."""
+    expected = f"{TRUE:.0%} of the occupied cells are at an obstacle, to one cell"
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    marked = said >= OCCUPIED
+    if marked.sum() < FEWEST:
+        scan = scans(recording, at)
+        return Finding(
+            False, expected, f"{marked.sum()} cells are occupied", round(at, 3), explanation=why(recording, said, scan)
+        )
+    if early := known_before(recording):
+        return Finding(False, expected, early[0], early[1], explanation=early[2])
+    share = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
+    measured = f"{share:.0%} of {marked.sum()} occupied cells are at an obstacle"
+    if share >= TRUE:
+        return Finding(True, expected, measured)
+    return Finding(False, expected, measured, round(at, 3), explanation=why(recording, said, scans(recording, at)))
+
+
+def known_before(recording):
+    """Return what was measured, when [s], and why, if the first map shows walls that no scan had hit yet."""
+    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
+        said, at = grid(recording, number)
+        if said is None or (said >= OCCUPIED).sum() < FEWEST:
+            continue
+        hit = cells(hits(scans(recording, at))) > 0
+        marked = said >= OCCUPIED
+        new = float((~grown(grown(hit)))[marked].mean())
+        real = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
+        if new <= EARLY or why(recording, said, scans(recording, at)):
+            return None
+        words = "the map shows walls that the scanner had not seen yet"
+        words += ": draw it from the scans" if real > EARLY else ", and they do not stand here: draw it from the scans"
+        return f"{new:.0%} of the {marked.sum()} occupied cells of the map at {at:.1f} s", round(at, 3), words
+    return None
+
+
+def free(recording, parameters):
+    """Pass if what rays have passed is free in the last map, and hardly anything else is."""
+    expected = (
+        f"{SEEN:.0%} of the cells that rays passed are free, and at most {NEVER_SEEN:.0%} of the free ones are others"
+    )
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    marked = (said >= 0) & (said <= FREE)
+    before, every = scans(recording, at - LATE), scans(recording, at)
+    hit = cells(hits(every)) > 0
+    passed = (along(before, 0, before.ends - 2 * RESOLUTION, before.hit) >= HITS) & ~hit
+    seen = grown(along(every, 0, every.ends, np.ones_like(every.hit)) > 0)
+    if passed.sum() < FEWEST:
+        return Finding(False, expected, "the scanner saw nothing before the last map came")
+    share, other = float(marked[passed].mean()), float((~seen)[marked].mean()) if marked.any() else 0.0
+    measured = (
+        f"{share:.0%} of {passed.sum()} cells that rays passed are free; {other:.0%} of your {marked.sum()} free "
+    )
+    measured += "cells were never seen"
+    if share >= SEEN and other <= NEVER_SEEN:
+        return Finding(True, expected, measured)
+    words = ""
+    if not marked.any():
+        words = "no cell is free, only the hits are drawn: the cells between the robot and a hit are free"
+    elif not (said < 0).any():
+        words = "no cell is unknown: what no ray has passed yet is -1, not 0"
+    elif other > NEVER_SEEN:
+        behind = grown(along(every, every.ends, every.ends + 2, every.hit) > 0)
+        if behind[marked & ~seen].mean() >= FITS:
+            words = "cells behind the hits are free: a ray says nothing about what is behind its hit"
+    elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
+        words = f"cells that rays passed have values above {FREE}"
+    return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def explored(recording, parameters):
+    """Pass if so large a share of the rooms was seen and is free in the last map."""
+    wanted = parameters["share"]
+    expected = f"at least {wanted:.0%} of the free cells of the rooms are seen, and free in the map"
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    every = scans(recording, at)
+    rooms = reachable(recording)
+    seen = along(every, 0, every.ends, np.ones_like(every.hit)) > 0
+    shown_free = (said >= 0) & (said <= FREE)
+    found, there = (seen & shown_free)[rooms].mean(), seen[rooms].mean()
+    measured = f"{found:.0%} of {rooms.sum()} cells; the scanner saw {there:.0%}"
+    if found >= wanted:
+        return Finding(True, expected, measured)
+    driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
+    turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
+    words = ""
+    if driven < MOVED:
+        words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
+        words += ": it saw what can be seen from its start"
+    elif there < wanted and (stood := standing(recording)):
+        words = stood
+    elif there < wanted:
+        words = "the robot did not come to every corner in time"
+    return Finding(False, expected, measured, explanation=words)
+
+
+def standing(recording):
+    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
+    way = recording.signal("truth/robot/distance")
+    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
+    if last > 0.7 * recording.end_ns / 1e9:
+        return ""
+    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
+
+
+def reachable(recording):
+    """Return the cells (80, 100) that are free in truth and connected with the start of the robot."""
+    open_cells = (shapes(recording).nearest(middles()) > RESOLUTION).reshape(HEIGHT, WIDTH)
+    rooms = grown(grown(cells(truth(recording, np.zeros(1))[:, :2]) > 0)) & open_cells
+    size = 0
+    while rooms.sum() > size:
+        size = int(rooms.sum())
+        rooms = grown(rooms) & open_cells
+    return rooms
+
+
+def touches_nothing(recording, parameters):
+    """Pass if the robot, a disc, never came to an obstacle."""
+    x, y = recording.signal("truth/robot/x"), recording.signal("truth/robot/y")
+    expected = f"the robot's middle stays more than {parameters['radius']:g} m away from everything"
+    if not len(x):
+        return Finding(False, expected, "the run ended before it began", gated=True)
+    distances, names = shapes(recording).distances(np.stack([x.values, y.values], 1))
+    least = distances.min(axis=0)
+    which, when = int(distances[:, least.argmin()].argmin()), int(least.argmin())
+    touching = least < parameters["radius"] + MARGIN
+    if not touching.any():
+        measured = f"the nearest was {names[which]} at {x.times[when] / 1e9:.1f} s, {least[when]:.2f} m from its middle"
+        return Finding(True, expected, measured)
+    first = int(np.argmax(touching))
+    name, at = names[int(distances[:, first].argmin())], float(x.times[first] / 1e9)
+    words = f"the robot ran into {name} at {at:.1f} s, at ({x.values[first]:.1f}, {y.values[first]:.1f})"
+    measured = f"it touched something in {touching.sum()} of {len(touching)} moments"
+    return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def why(recording, said, scan):
+    """Return the misconception that fits the occupied cells of a wrong map; empty if none does."""
+    marked = said >= OCCUPIED
+    solid = (shapes(recording).nearest(middles()) <= OFF).reshape(HEIGHT, WIDTH)
+    hit = cells(hits(scan)) >= HITS
+
+    def fits(cells_of_walls):
+        """Say whether a map is right: its walls stand there, and they are those that were hit."""
+        number = cells_of_walls.sum()
+        return number >= FEWEST and solid[cells_of_walls].mean() >= FITS and grown(cells_of_walls)[hit].mean() >= FITS
+
+    if words := wrong_values(said, fits):
+        return words
+    if marked.sum() < FEWEST:
+        return "hardly any cell is occupied"
+    for words, changed in rearranged(marked):
+        if fits(changed):
+            return words
+    for words, points in misplaced(recording, scan):
+        predicted = cells(points)
+        enough = grown(marked)[predicted >= HITS]
+        if grown(predicted > 0)[marked].mean() >= FITS and len(enough) and enough.mean() >= 0.5:
+            return words
+    wrong = marked & ~solid
+    if wrong.sum() < FEWEST:
+        return ""
+    if grown(cells(hits(scan, which=~scan.hit)) > 0)[wrong].mean() >= FITS:
+        return "rays without a hit are drawn as walls at range_max: inf is no hit"
+    if grown(along(scan, scan.ends, scan.ends + 2, scan.hit) > 0)[wrong].mean() >= FITS:
+        return "cells behind the hits are occupied: a ray says nothing about what is behind its hit"
+    if (along(scan, 0, scan.ends, np.ones_like(scan.hit)) > 0)[wrong].mean() >= FITS:
+        return "cells between the robot and the hits are occupied"
+    return ""
+
+
+def wrong_values(said, fits):
+    """Return what is wrong with the numbers in a map whose walls are in the right places; empty if nothing is."""
+    most = said.max()
+    if 0 < most < OCCUPIED and fits(said == most):
+        return f"the walls of your map have the value {most:g}: an occupied cell is 100"
+    if fits((said >= 0) & (said <= FREE)):
+        return "occupied and free are exchanged: 100 is occupied, 0 is free"
+    if most <= 0 and fits(said < 0):
+        return "the walls of your map have the value -1, which is unknown: an occupied cell is 100"
+    return ""
+
+
+def rearranged(marked):
+    """Yield common mistakes with rows and columns, and the map as it is without each."""
+    data = marked.ravel()
+    shift = round(-BOTTOM / RESOLUTION), round(-LEFT / RESOLUTION)
+    yield "rows and columns are exchanged: the place in data is row * width + column", data.reshape(WIDTH, HEIGHT).T
+    yield "rows and columns are exchanged: the place in data is row * width + column", transposed(marked)
+    yield "the y axis points down: the first row has the lowest y", marked[::-1]
+    yield "the x axis points backwards: within a row x grows", marked[:, ::-1]
+    yield "both axes are reversed: the first cell has the lowest x and y", marked[::-1, ::-1]
+    yield "rows have the wrong length: the place in data is row * width + column, with width 100", strided(data)
+    words = "the origin is ignored: the cell of a point is (point - origin) / resolution"
+    yield words, np.roll(marked, shift, (0, 1))
+    yield "the origin is added instead of subtracted", np.roll(marked, (2 * shift[0], 2 * shift[1]), (0, 1))
+    quadrant = np.zeros_like(marked)
+    quadrant[shift[0] :, shift[1] :] = marked[: HEIGHT - shift[0], : WIDTH - shift[1]]
+    yield words, quadrant
+
+
+def transposed(marked):
+    """Return a map as it is if x had been taken for the row: cells [x, y], as far as both are in the map."""
+    out = np.zeros_like(marked)
+    out[:, :HEIGHT] = marked[:, :HEIGHT].T
+    return out
+
+
+def strided(data):
+    """Return a map as it is if the length of a row had been taken for 80."""
+    row, column = np.divmod(np.arange(len(data)), WIDTH)
+    place = np.minimum(row * HEIGHT + column, len(data) - 1)
+    return data[place].reshape(HEIGHT, WIDTH)
+
+
+def misplaced(recording, scan):
+    """Yield common mistakes with the pose and with angles, and the points (n, 2) [m] at which they draw the hits."""
+    pose, angles, heading = scan.pose, scan.angles, scan.pose[:, 2:]
+
+    def other(x=1.0, turn=1.0):
+        return pose * (x, x, turn)
+
+    yield "the robot's heading is ignored: walls turn with the robot", hits(scan, other(turn=0))
+    yield "the robot's position is ignored: every scan is drawn around (0, 0)", hits(scan, other(x=0))
+    yield (
+        "the robot's pose is ignored: every scan is drawn around (0, 0), as the robot sees it",
+        hits(scan, other(0, 0)),
+    )
+    yield "the robot's heading is subtracted instead of added", hits(scan, other(turn=-1))
+    yield "every scan is drawn from the robot's first pose", hits(scan, np.broadcast_to(pose[:1], pose.shape))
+    for words, direction in (
+        ("cos and sin take radians, and your angles are in degrees", np.degrees(heading + angles)),
+        ("the heading is in degrees, the angles of the rays are in radians", np.degrees(heading) + angles),
+        ("the angles of the rays are in degrees, the heading is in radians", heading + np.degrees(angles)),
+        ("angles are converted from degrees, but they are in radians already", np.radians(heading + angles)),
+        ("the angles of a scan are converted from degrees, but they are in radians", heading + np.radians(angles)),
+        ("the heading is converted from degrees, but it is in radians", np.radians(heading) + angles),
+        ("the first ray is taken for the one ahead: its angle is angle_min", heading + angles - angles[0]),
+        ("the rays are drawn in the opposite order: angles grow to the left", heading - angles),
+        ("orientation.z is taken for the heading: it is the sine of half of it", np.sin(heading / 2) + angles),
+    ):
+        yield words, hits(scan, angles=direction)
+    yield "sine and cosine are exchanged", hits(scan, angles=np.pi / 2 - heading - angles)
