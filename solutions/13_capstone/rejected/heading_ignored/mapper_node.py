@@ -71,8 +71,8 @@ class Mapper(Node):
         self.maps.publish(message)
 
     def value(self, hits, passes):
-        """Return the share of hits [%], counted thrice; -1 where nothing was seen."""
-        return round(100 * 3 * hits / (3 * hits + passes)) if hits + passes else -1
+        """Return 100 where anything was hit, 0 where rays passed, else -1."""
+        return 100 if hits else 0 if passes else -1
 
     def drive(self, scan):
         x, y, heading = self.pose
