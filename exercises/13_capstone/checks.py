@@ -75,6 +75,8 @@ def no_map(recording):
         return "no map was published"
     number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
     size = f"{info(recording, 'width'):g} x {info(recording, 'height'):g}"
+    if not number and info(recording, "width") * info(recording, "height") > WIDTH * HEIGHT:
+        return f"info of the last map says {size} cells; so long a list is not recorded"
     return f"data of the last map had {number} numbers, and info says {size} cells"
 
 
