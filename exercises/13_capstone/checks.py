@@ -1,0 +1,372 @@
+"""Is the last map on /map a map of the rooms, and has the robot seen them without touching anything?
+
+The truth is computed from the shapes of the world in the recording, from the simulator's poses of the robot, and from
+the scans as they were sent. Wrong maps are compared with those of common misconceptions.
+"""
+
+from math import hypot
+
+import numpy as np
+
+from gz_course.grader.printable import shown
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.floor import (
+    BOTTOM,
+    HEIGHT,
+    LEFT,
+    RESOLUTION,
+    WIDTH,
+    along,
+    cells,
+    grown,
+    hits,
+    middles,
+    misplaced,
+    scans,
+    shapes,
+    truth,
+)
+
+# From Nav2's map server, as shares: https://docs.nav2.org/configuration/packages/configuring-map-server.html
+OCCUPIED, FREE = 65, 25  # at least, at most
+OFF = 0.15  # [m] from the middle of an occupied cell to an obstacle: one cell, and half a cell for its middle
+HITS = 3  # of the scanner, in one cell, that make it a wall which the map must show
+WALLS, TRUE, SEEN, NEVER_SEEN = 0.9, 0.92, 0.9, 0.05  # shares of cells
+FEWEST = 30  # cells; fewer say nothing about a map
+FITS = 0.8  # of the occupied cells, to fit a misconception
+EARLY = 0.5  # of the occupied cells of the first map that the scanner had not hit yet: the map was known before
+LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
+MOVED = 0.3  # [m]
+MARGIN = 0.003  # [m] between the robot and what it does not touch
+MAP = "topics/map"
+
+
+def info(recording, name):
+    """Return the last value of a field of `info`; NaN if there is none."""
+    values = recording.signal(f"{MAP}/info/{name}").values
+    return float(values[-1]) if len(values) else float("nan")
+
+
+def grid(recording, number=-1):
+    """Return a map as the cells of the task (80, 100), and when it came [s]; None if there is none that can be read.
+
+    A map with as many cells as asked for is read as the task says. Another one is read by its own layout.
+    """
+    times, rows = recording.arrays(f"{MAP}/data")
+    if not len(rows):
+        return None, 0.0
+    data, at = np.asarray(rows[number]), float(times[number] / 1e9)
+    width, height, size = info(recording, "width"), info(recording, "height"), info(recording, "resolution")
+    if len(data) == WIDTH * HEIGHT and (width == WIDTH or width * height != len(data)):
+        return data.reshape(HEIGHT, WIDTH), at
+    if not (width * height == len(data) and size > 0):
+        return None, at
+    origin = [info(recording, f"origin/position/{axis}") for axis in "xy"]
+    place = np.clip(np.floor((middles() - origin) / size), -1, 1e6).astype(int)
+    inside = (place[:, 0] >= 0) & (place[:, 0] < width) & (place[:, 1] >= 0) & (place[:, 1] < height)
+    out = np.full(WIDTH * HEIGHT, -1.0)
+    out[inside] = data[place[inside, 1] * int(width) + place[inside, 0]]
+    return out.reshape(HEIGHT, WIDTH), at
+
+
+def no_map(recording):
+    """Return why there is no map that can be read."""
+    if not recording.has(f"{MAP}/count"):
+        return "no map was published"
+    number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
+    size = f"{info(recording, 'width'):g} x {info(recording, 'height'):g}"
+    if not number and info(recording, "width") * info(recording, "height") > WIDTH * HEIGHT:
+        return f"info of the last map says {size} cells; so long a list is not recorded"
+    return f"data of the last map had {number} numbers, and info says {size} cells"
+
+
+def layout(recording, parameters):
+    """Pass if frame, resolution, size, origin and the number of cells are those of the task."""
+    expected = "frame odom, 100 x 80 cells of 0.1 m, origin (-5, -4) with orientation.w 1, 8000 numbers"
+    if not recording.has(f"{MAP}/info/width"):
+        return Finding(False, expected, "no map was published")
+    width, height, size = info(recording, "width"), info(recording, "height"), info(recording, "resolution")
+    x, y, w = (info(recording, f"origin/{n}") for n in ("position/x", "position/y", "orientation/w"))
+    number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
+    frames = [line.text for line in recording.lines(f"{MAP}/header/frame_id")]
+    frame = frames[-1] if frames else ""
+    seen = f"frame {shown(frame, 40)!r}, {width:g} x {height:g} cells of {size:.3g} m, origin ({x:g}, {y:g})"
+    seen += f" with orientation.w {w:g}, {number} numbers"
+    right = {
+        f"frame_id is {shown(frame, 40)!r}": frame == "odom",
+        "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
+        f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
+        f"info.resolution is {size:g}, it is in metres": abs(size - RESOLUTION) < 1e-4,
+        f"info.origin is ({x:g}, {y:g}), the corner of the first cell is at (-5, -4)": hypot(x - LEFT, y - BOTTOM)
+        < 1e-3,
+        "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
+        f"data has {number} numbers": number == WIDTH * HEIGHT,
+    }
+    wrong = [words for words, holds in right.items() if not holds]
+    return Finding(not wrong, expected, seen, explanation="; ".join(wrong))
+
+
+def walls(recording, parameters):
+    """Pass if the cells that the scanner has hit are occupied in the last map, or a cell beside them is."""
+    expected = f"{WALLS:.0%} of the cells that the scanner hit are occupied, to one cell"
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    scan = scans(recording, at - LATE)
+    wanted = cells(hits(scan)) >= HITS
+    if wanted.sum() < FEWEST:
+        return Finding(False, expected, "the scanner hit nothing before the last map came")
+    share = float(grown(said >= OCCUPIED)[wanted].mean())
+    measured = f"{share:.0%} of {wanted.sum()} cells with hits are occupied"
+    if share >= WALLS:
+        return Finding(True, expected, measured)
+    return Finding(False, expected, measured, round(at, 3), explanation=why(recording, said, scan))
+
+
+def no_ghosts(recording, parameters):
+    """Pass if the occupied cells of the last map are at obstacles."""
+    expected = f"{TRUE:.0%} of the occupied cells are at an obstacle, to one cell"
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    marked = said >= OCCUPIED
+    if marked.sum() < FEWEST:
+        scan = scans(recording, at)
+        return Finding(
+            False, expected, f"{marked.sum()} cells are occupied", round(at, 3), explanation=why(recording, said, scan)
+        )
+    share = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
+    measured = f"{share:.0%} of {marked.sum()} occupied cells are at an obstacle"
+    words = why(recording, said, scans(recording, at)) if share < TRUE else ""
+    if not words and (early := known_before(recording)):
+        return Finding(False, expected, early[0], early[1], explanation=early[2])
+    if share >= TRUE:
+        return Finding(True, expected, measured)
+    return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def known_before(recording):
+    """Return what was measured, when [s], and why it is wrong, if the first map shows walls before they were hit.
+
+    Walls that do stand there are forgiven: only other rooms show that they were known by heart.
+    """
+    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
+        said, at = grid(recording, number)
+        if said is None or (said >= OCCUPIED).sum() < FEWEST:
+            continue
+        hit = cells(hits(scans(recording, at))) > 0
+        marked = said >= OCCUPIED
+        new = float((~grown(grown(hit)))[marked].mean())
+        real = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
+        if new <= EARLY or real > EARLY:
+            return None
+        words = "the map shows walls that the scanner had not seen, and they do not stand here: draw it from the scans"
+        return f"{new:.0%} of the {marked.sum()} occupied cells of the map at {at:.1f} s", round(at, 3), words
+    return None
+
+
+def free(recording, parameters):
+    """Pass if what rays have passed is free in the last map, and hardly anything else is."""
+    expected = (
+        f"{SEEN:.0%} of the cells that rays passed are free, and at most {NEVER_SEEN:.0%} of the free ones are others"
+    )
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    marked = (said >= 0) & (said <= FREE)
+    before, every = scans(recording, at - LATE), scans(recording, at)
+    hit = cells(hits(every)) > 0
+    passed = (along(before, 0, before.ends - 2 * RESOLUTION, before.hit) >= HITS) & ~hit
+    seen = grown(along(every, 0, every.ends, np.ones_like(every.hit)) > 0)
+    if passed.sum() < FEWEST:
+        return Finding(False, expected, "the scanner saw nothing before the last map came")
+    share, other = float(marked[passed].mean()), float((~seen)[marked].mean()) if marked.any() else 0.0
+    measured = (
+        f"{share:.0%} of {passed.sum()} cells that rays passed are free; {other:.0%} of your {marked.sum()} free "
+    )
+    measured += "cells were never seen"
+    if share >= SEEN and other <= NEVER_SEEN:
+        return Finding(True, expected, measured)
+    words = ""
+    if not marked.any():
+        words = "no cell is free, only the hits are drawn: the cells between the robot and a hit are free"
+    elif not (said < 0).any():
+        words = "no cell is unknown: what no ray has passed yet is -1, not 0"
+    elif other > NEVER_SEEN and walls_are_right(recording, said):
+        behind = grown(along(every, every.ends, every.ends + 2, every.hit) > 0)
+        if behind[marked & ~seen].mean() >= FITS:
+            words = "cells behind the hits are free: a ray says nothing about what is behind its hit"
+    elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
+        words = f"cells that rays passed have values above {FREE}"
+    return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def walls_are_right(recording, said):
+    """Return whether the occupied cells of a map, if there are any, are at obstacles."""
+    marked = (said >= OCCUPIED).ravel()
+    return not marked.any() or (shapes(recording).nearest(middles()[marked]) <= OFF).mean() >= FITS
+
+
+def explored(recording, parameters):
+    """Pass if so large a share of the rooms was seen and is free in the last map."""
+    wanted = parameters["share"]
+    expected = f"at least {wanted:.0%} of the free cells of the rooms are seen, and free in the map"
+    said, at = grid(recording)
+    if said is None:
+        return Finding(False, expected, no_map(recording))
+    every = scans(recording, at)
+    rooms = reachable(recording)
+    seen = along(every, 0, every.ends, np.ones_like(every.hit)) > 0
+    shown_free = (said >= 0) & (said <= FREE)
+    found, there = (seen & shown_free)[rooms].mean(), seen[rooms].mean()
+    measured = f"{found:.0%} of {rooms.sum()} cells; the scanner saw {there:.0%}"
+    if found >= wanted:
+        return Finding(True, expected, measured)
+    driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
+    turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
+    words = ""
+    if driven < MOVED:
+        words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
+        words += ": it saw what can be seen from its start"
+    elif there < wanted and (stood := standing(recording)):
+        words = stood
+    elif there < wanted:
+        words = "the robot did not come to every corner in time"
+    return Finding(False, expected, measured, explanation=words)
+
+
+def standing(recording):
+    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
+    way = recording.signal("truth/robot/distance")
+    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
+    if last > 0.7 * recording.end_ns / 1e9:
+        return ""
+    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
+
+
+def reachable(recording):
+    """Return the cells (80, 100) that are free in truth and connected with the start of the robot."""
+    open_cells = (shapes(recording).nearest(middles()) > RESOLUTION).reshape(HEIGHT, WIDTH)
+    rooms = grown(grown(cells(truth(recording, np.zeros(1))[:, :2]) > 0)) & open_cells
+    size = 0
+    while rooms.sum() > size:
+        size = int(rooms.sum())
+        rooms = grown(rooms) & open_cells
+    return rooms
+
+
+def touches_nothing(recording, parameters):
+    """Pass if the robot, a disc, never came to an obstacle."""
+    x, y = recording.signal("truth/robot/x"), recording.signal("truth/robot/y")
+    expected = f"the robot's middle stays more than {parameters['radius']:g} m away from everything"
+    if not len(x):
+        return Finding(False, expected, "the run ended before it began", gated=True)
+    distances, names = shapes(recording).distances(np.stack([x.values, y.values], 1))
+    least = distances.min(axis=0)
+    which, when = int(distances[:, least.argmin()].argmin()), int(least.argmin())
+    touching = least < parameters["radius"] + MARGIN
+    if not touching.any():
+        measured = f"the nearest was {names[which]} at {x.times[when] / 1e9:.1f} s, {least[when]:.2f} m from its middle"
+        return Finding(True, expected, measured)
+    first = int(np.argmax(touching))
+    name, at = names[int(distances[:, first].argmin())], float(x.times[first] / 1e9)
+    words = f"the robot ran into {name} at {at:.1f} s, at ({x.values[first]:.1f}, {y.values[first]:.1f})"
+    measured = f"it touched something in {touching.sum()} of {len(touching)} moments"
+    return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def why(recording, said, scan):
+    """Return the misconception that fits the occupied cells of a wrong map; empty if none does."""
+    marked = said >= OCCUPIED
+    solid = (shapes(recording).nearest(middles()) <= OFF).reshape(HEIGHT, WIDTH)
+    hit = cells(hits(scan)) >= HITS
+
+    def fits(cells_of_walls):
+        """Say whether a map is right: its walls stand there, and they are those that were hit."""
+        number = cells_of_walls.sum()
+        return number >= FEWEST and solid[cells_of_walls].mean() >= FITS and grown(cells_of_walls)[hit].mean() >= FITS
+
+    if words := wrong_values(said, fits):
+        return words
+    if marked.sum() < FEWEST:
+        return "hardly any cell is occupied"
+    for words, changed in rearranged(marked):
+        if fits(changed):
+            return words
+    for words, changed in shifted(marked):
+        if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
+            return words
+    if words := drawn_elsewhere(recording):
+        return words
+    wrong = marked & ~solid
+    if wrong.sum() < FEWEST:
+        return ""
+    if grown(cells(hits(scan, which=~scan.hit)) > 0)[wrong].mean() >= FITS:
+        return "rays without a hit are drawn as walls at range_max: inf is no hit"
+    return ""
+
+
+def drawn_elsewhere(recording):
+    """Return the mistake with pose or angles by which the first map with walls was drawn; empty if none fits.
+
+    It holds few scans, so that the walls of different scans do not cover each other yet.
+    """
+    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
+        said, at = grid(recording, number)
+        if said is None or (said >= OCCUPIED).sum() < FEWEST:
+            continue
+        marked, scan = said >= OCCUPIED, scans(recording, at)
+        best, words = grown(cells(hits(scan)) > 0)[marked].mean() + 0.2, ""
+        for each, points in misplaced(scan):
+            share = grown(cells(points) > 0)[marked].mean()
+            if share >= FITS and share > best:
+                best, words = share, each
+        return words
+    return ""
+
+
+def wrong_values(said, fits):
+    """Return what is wrong with the numbers in a map whose walls are in the right places; empty if nothing is."""
+    most = said.max()
+    if 0 < most < OCCUPIED and fits(said == most):
+        return f"the walls of your map have the value {most:g}: an occupied cell is 100"
+    if fits((said >= 0) & (said <= FREE)):
+        return "occupied and free are exchanged: 100 is occupied, 0 is free"
+    if most <= 0 and fits(said < 0):
+        return "the walls of your map have the value -1, which is unknown: an occupied cell is 100"
+    return ""
+
+
+def rearranged(marked):
+    """Yield common mistakes with rows and columns, and the map as it is without each."""
+    data = marked.ravel()
+    yield "rows and columns are exchanged: the place in data is row * width + column", data.reshape(WIDTH, HEIGHT).T
+    yield "rows and columns are exchanged: the place in data is row * width + column", transposed(marked)
+    yield "the y axis points down: the first row has the lowest y", marked[::-1]
+    yield "the x axis points backwards: within a row x grows", marked[:, ::-1]
+    yield "both axes are reversed: the first cell has the lowest x and y", marked[::-1, ::-1]
+    yield "rows have the wrong length: the place in data is row * width + column, with width 100", strided(data)
+
+
+def shifted(marked):
+    """Yield mistakes with the origin, and what can be seen of the map without each."""
+    shift = round(-BOTTOM / RESOLUTION), round(-LEFT / RESOLUTION)
+    quadrant = np.zeros_like(marked)
+    quadrant[shift[0] :, shift[1] :] = marked[: HEIGHT - shift[0], : WIDTH - shift[1]]
+    words = "the origin is ignored: the cell of a point is (point - origin) / resolution"
+    yield words, quadrant
+    yield words, np.roll(marked, shift, (0, 1))
+
+
+def transposed(marked):
+    """Return a map as it is if x had been taken for the row: cells [x, y], as far as both are in the map."""
+    out = np.zeros_like(marked)
+    out[:, :HEIGHT] = marked[:, :HEIGHT].T
+    return out
+
+
+def strided(data):
+    """Return a map as it is if the length of a row had been taken for 80."""
+    row, column = np.divmod(np.arange(len(data)), WIDTH)
+    place = np.minimum(row * HEIGHT + column, len(data) - 1)
+    return data[place].reshape(HEIGHT, WIDTH)
