@@ -85,14 +85,17 @@ def _usable(target: Path, sources: list[Path]) -> Path:
 
 
 def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None:
-    private = [lines for exercise in exercises for lines in _private_files(exercise)]
+    private = [lines for exercise in exercises for lines in _private(exercise)]
+    together = {
+        Path("exercises", e.name, name): [e.folder / part for part in e.parts] for e in exercises for name in e.parts
+    }
     for base, names in ((root, PARTS), (code, CODE)):
         for name in names:
             for path in plain_files(base / name):
                 inside = path.relative_to(base)
                 if not any(inside.is_relative_to(each) for each in AUTHORS_ONLY):
                     if name in PARTS:
-                        _refuse_a_solution(path, inside, private)
+                        _refuse_a_solution(together.get(inside, [path]), inside, private)
                     (copy / inside).parent.mkdir(parents=True, exist_ok=True)
                     shutil.copy(path, copy / inside)
     for name in FILES:
@@ -106,16 +109,21 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
     (copy / "README.md").write_text(readme(exercises, FROM_A_COPY, notebooks), encoding="utf-8")
 
 
-def _private_files(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
-    """Return the solution and the accepted variants of an exercise, each with its lines."""
+def _private(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:
+    """Return the solution and the accepted variants of an exercise, each with the lines of all its files."""
     folder = exercise.twin
-    found = [folder / name for name in exercise.parts]
-    found += [path for name in exercise.parts for path in sorted(folder.glob(f"accepted/*/{name}"))]
-    return [(path, lines) for path in found if path.is_file() and (lines := _lines(path))]
+    found = []
+    for variant in (folder, *sorted(path for path in folder.glob("accepted/*") if path.is_dir())):
+        paths = [next((at / n for at in (variant, folder) if (at / n).is_file()), None) for n in exercise.parts]
+        lines = frozenset[str]().union(*(_lines(path) for path in paths if path is not None))
+        if lines:
+            found.append((variant / exercise.file, lines))
+    return found
 
 
-def _refuse_a_solution(path: Path, inside: Path, private: list[tuple[Path, frozenset[str]]]) -> None:
-    there = _lines(path)
+def _refuse_a_solution(paths: list[Path], inside: Path, private: list[tuple[Path, frozenset[str]]]) -> None:
+    """Raise ManifestError if files that belong together hold all lines of a solution."""
+    there = frozenset[str]().union(*map(_lines, paths))
     for solution, lines in private:
         if lines <= there:
             given = "/".join(solution.parts[-3:])

@@ -222,7 +222,7 @@ def sending(monkeypatch):
         )  # fmt: skip
         ros = SimpleNamespace(
             received={}, pump=lambda: None, listens=lambda topic: None, matched=lambda topic, kind: 1,
-            is_large=lambda message: large,
+            is_large=lambda message: large, keeps=lambda topic: 0, offered={},
         )  # fmt: skip
         pace = lockstep.LockStep(student, ros)
         pace._layout, pace._participants = student.layout, [listener]

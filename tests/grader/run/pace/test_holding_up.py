@@ -41,6 +41,7 @@ def held_up(monkeypatch):
     def call(looks):
         worker = Worker(looks)
         ros = SimpleNamespace(received={}, pump=lambda: None, listens=lambda topic: None, matched=lambda *of: 1)
+        ros.keeps, ros.offered = lambda topic: 0, {}
         pace = LockStep(worker, ros)
         pace._layout, pace._participants = worker.layout, [worker]
         pace.send("/clock", SimpleNamespace(publish=lambda message: None), "tick", -1)

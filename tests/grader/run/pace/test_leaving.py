@@ -4,6 +4,7 @@ import json
 import socket
 from collections import Counter
 from types import SimpleNamespace
+from typing import ClassVar
 
 import pytest
 
@@ -23,6 +24,7 @@ class Leaving:
     participants = followed = ()
     endpoints = (Endpoint("/node", "subscription", CLOCK, TYPE, "BEST_EFFORT", "VOLATILE", 1),)
     layout = (1,)
+    offered: ClassVar[dict[str, str]] = {}
 
     def __init__(self, waits, then):
         self.running = True
@@ -39,6 +41,9 @@ class Leaving:
 
     def pump(self):
         pass
+
+    def keeps(self, topic):
+        return 0
 
     def listens(self, topic):
         return None
