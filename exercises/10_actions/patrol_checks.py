@@ -240,7 +240,7 @@ def cancel(recording, parameters):
     if np.max(before, initial=0.0) < 0.05:
         return gated(expected, "the robot did not drive when the goal was cancelled")
     if run.one("not_cancelling", "cancelled"):
-        why = "Your server refuses to cancel: that is the default, and a cancel_callback can answer CancelResponse.ACCEPT"
+        why = "Your server refuses to cancel, which is the default: its cancel_callback must accept (CancelResponse)"
         return Finding(False, expected, "the cancellation was refused", at, explanation=why)
     found = run.one("result", "cancelled")
     window = (run.times >= at + STOPPED) & (run.times <= at + STOPPED + 0.5)

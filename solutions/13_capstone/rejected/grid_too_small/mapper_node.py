@@ -9,7 +9,7 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
-RESOLUTION = 0.1  # [m]
+RESOLUTION = 0.1  # [m] side of a cell
 WIDTH, HEIGHT = 40, 40  # [cells]
 LEFT, BOTTOM = -2.0, -2.0  # [m]
 KEEP = 0.4  # [m] between the robot's middle and what is ahead

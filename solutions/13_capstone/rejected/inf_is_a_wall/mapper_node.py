@@ -9,9 +9,9 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
-RESOLUTION = 0.1  # [m]
-WIDTH, HEIGHT = 100, 80  # [cells]
-LEFT, BOTTOM = -5.0, -4.0  # [m]
+RESOLUTION = 0.1  # [m] side of a cell
+WIDTH, HEIGHT = 100, 80  # [cells] along x and along y
+LEFT, BOTTOM = -5.0, -4.0  # [m] the corner of the cell (0, 0) in odom
 KEEP = 0.4  # [m] between the robot's middle and what is ahead
 BESIDE = 0.3  # [m] on both sides of the way must be free
 STEP = 1.2  # [m] at most to the next place

@@ -8,9 +8,9 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import LaserScan
 
-RESOLUTION = 0.1  # [m]
-WIDTH, HEIGHT = 100, 80  # [cells]
-LEFT, BOTTOM = -5.0, -4.0  # [m]
+RESOLUTION = 0.1  # [m] side of a cell
+WIDTH, HEIGHT = 100, 80  # [cells] along x and along y
+LEFT, BOTTOM = -5.0, -4.0  # [m] the corner of the cell (0, 0) in odom
 ROUTE = [
     (-2.8, 0.2),
     (-1.4, -0.2),
