@@ -111,7 +111,7 @@ def cells(points: Array) -> Array:
     """Return how many of the points (n, 2) [m] lie in each cell."""
     column = np.floor((points[:, 0] - LEFT) / RESOLUTION).astype(int)
     row = np.floor((points[:, 1] - BOTTOM) / RESOLUTION).astype(int)
-    inside = (0 <= column) & (column < WIDTH) & (0 <= row) & (row < HEIGHT)
+    inside = (column >= 0) & (column < WIDTH) & (row >= 0) & (row < HEIGHT)
     return np.bincount(row[inside] * WIDTH + column[inside], minlength=WIDTH * HEIGHT).reshape(HEIGHT, WIDTH)
 
 
