@@ -53,7 +53,8 @@ class RemoteRunningWorld:
         sent = type(request).FromString(request.SerializeToString())
         if getattr(request, "sdf", "") or getattr(request, "sdf_filename", ""):
             try:
-                asked["description"] = _handed_over(request.sdf, request.sdf_filename)
+                with python_3.at_work():  # also while it waits for xacro, which runs in a process of its own
+                    asked["description"] = _handed_over(request.sdf, request.sdf_filename)
             except SimError:
                 return False  # the caller reads it again and says why
             sent.ClearField("sdf" if request.sdf else "sdf_filename")
