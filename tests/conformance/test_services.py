@@ -3,7 +3,7 @@
 import pytest
 
 STRING = "ignition.msgs.StringMsg"
-CALL = ("--reqtype", STRING, "--reptype", STRING, "--timeout", "5000")
+CALL = ("--reqtype", STRING, "--reptype", STRING, "--timeout", "60000")
 
 
 @pytest.fixture
@@ -34,6 +34,7 @@ def test_both_say_the_same_about_a_service_that_there_is_not(stage):
     assert own.out == real.out
 
 
+@pytest.mark.proof  # beside much load the real client may miss the answer
 def test_both_calls_are_answered_with_the_same_text(stage, ours):
     request = ("-s", "/shout", *CALL, "-r", 'header: {stamp: {sec: 3}}, data: "hey"')
     real, own = stage.real_service(*request), stage.gz("service", *request)
