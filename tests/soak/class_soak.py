@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 
 from gz_course.tests.generated_class import hand_in
-from gz_course.tests.soak.watched import FEWEST, Outcome, Watched, end, entries, left_behind, watch
+from gz_course.tests.soak.watched import FEWEST, Outcome, Watched, end, entries, left_behind, shared_names, watch
 
 COURSE = Path(sys.executable).parent / "course"
 PART = 0.5  # of the run's samples, from which a process counts as one that lasts
@@ -21,6 +21,7 @@ def run(folder: Path, students: int, jobs: int) -> Outcome:
     """Grade a generated class; return what the processes held that lived through most of it."""
     submissions, out = hand_in(folder / "class", students), folder / "out"
     temporary = folder / "tmp"
+    before = shared_names()
     command = [str(COURSE), "grade-all", "03_teleop", str(submissions), "--out", str(out), "--jobs", str(jobs)]
     with (folder / "told").open("wb") as told:
         process = psutil.Popen(
@@ -43,7 +44,7 @@ def run(folder: Path, students: int, jobs: int) -> Outcome:
     finally:
         stubborn = end([process])
     lasting = [each for each in everything if len(each.samples) >= max(FEWEST, PART * len(everything[0].samples))]
-    wrong = [f"{name} had to be killed" for name in stubborn] + left_behind(everything, temporary)
+    wrong = [f"{name} had to be killed" for name in stubborn] + left_behind(everything, temporary, before)
     if process.returncode != 0:
         wrong.append(f"exit code {process.returncode}: {(folder / 'told').read_text()[-400:]}")
         return Outcome(lasting, [], wrong)

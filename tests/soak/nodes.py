@@ -10,6 +10,7 @@ import sys
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy._rclpy_pybind11 import RCLError  # what `spin` may raise if the context ends between two waits
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -105,7 +106,7 @@ def main() -> None:
     name, world = sys.argv[1:]
     rclpy.init(args=[])
     node = {"listener": Listener, "commander": Commander}[name]() if name != "builder" else Builder(world)
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException, RCLError):
         rclpy.spin(node)
     print(node.done(), flush=True)
     node.destroy_node()

@@ -121,11 +121,28 @@ def watch(
     return list(known.values())
 
 
-def left_behind(watched: list[Watched], folder: Path) -> list[str]:
-    """Faults after the end of all processes: shared memory that they had, and files for a moment that stayed."""
-    names = sorted({name for each in watched for name in each.segments})
-    wrong = [f"left in shared memory: {name}" for name in names if Path(name).exists()]
+def shared_names() -> set[str]:
+    """Return the paths of all shared memory of this machine."""
+    return {str(path) for path in Path(SHARED).glob("*")}
+
+
+def left_behind(watched: list[Watched], folder: Path, before: set[str]) -> list[str]:
+    """Faults after the end of all processes: files for a moment that stayed, and shared memory that is new.
+
+    Ports of Fast DDS may be from `before`, or be used by other programs of this machine.
+    """
+    names = {name for each in watched for name in each.segments} & shared_names() - before
+    used = _mapped_by_somebody() if names else ""
+    wrong = [f"left in shared memory: {name}" for name in sorted(names) if f"{name}\n" not in used]
     return wrong + [f"left in the folder for temporary files: {path.name}" for path in sorted(folder.iterdir())]
+
+
+def _mapped_by_somebody() -> str:
+    found = []
+    for place in Path("/proc").glob("[0-9]*/maps"):
+        with contextlib.suppress(OSError):
+            found.append(place.read_text())
+    return "".join(found)
 
 
 def entries(folder: Path) -> int:

@@ -13,7 +13,7 @@ from gz_course.sim.gz.msgs.clock_pb2 import Clock
 from gz_course.sim.gz.transport import Node, NodeOptions
 from gz_course.sim.ros_gz_bridge.type_pairs import pairs
 from gz_course.tests.soak.nodes import NODES
-from gz_course.tests.soak.watched import Outcome, Watched, end, entries, left_behind, watch
+from gz_course.tests.soak.watched import Outcome, Watched, end, entries, left_behind, shared_names, watch
 
 PROGRAMS = Path(sys.executable).parent
 START_UP = 300.0  # [s] for the simulator to show its topics
@@ -40,6 +40,7 @@ def run(folder: Path, world: str, minutes: float) -> Outcome:
     environment = os.environ | own
     running: list[psutil.Popen] = []
     watched: list[Watched] = []
+    before = shared_names()
 
     def start(name: str, *command: str) -> None:
         with (folder / f"{name}.txt").open("wb") as told:
@@ -84,7 +85,7 @@ def run(folder: Path, world: str, minutes: float) -> Outcome:
         stubborn = end(running[::-1])
     told = [f"{passed / 60:.1f} min of simulated time, {len(bridges)} bridges, {held} temporary files while it ran"]
     told += [(folder / f"{each}.txt").read_text().strip().rpartition("\n")[2] for each in NODES]
-    wrong = [f"{name} had to be killed" for name in stubborn] + left_behind(watched, folder / "tmp")
+    wrong = [f"{name} had to be killed" for name in stubborn] + left_behind(watched, folder / "tmp", before)
     if stuck:
         last = {each.name: (folder / f"{each.name}.txt").read_text()[-400:] for each in watched}
         wrong.append(f"it stopped after {passed / 60:.1f} min: {last}")
