@@ -13,10 +13,10 @@
     { title: "Id", value: (row) => row[ID] },
     { title: "Score", value: (row) => row[SCORE], number: true },
     { title: "Outcome", value: (row) => row[OUTCOME] },
+    { title: "Feedback", value: (row) => row[TOLD], kind: "told" },
     ...data.checks.map((check, n) => ({
-      title: check.id, value: (row) => row[POINTS][n], number: true, most: check.points,
+      title: check.id.replaceAll("_", " "), value: (row) => row[POINTS][n], number: true, most: check.points,
     })),
-    { title: "Feedback", value: (row) => row[TOLD] },
   ];
   const state = { words: [], outcome: "", column: 0, down: false, page: 0 };
   let found = rows;
@@ -67,7 +67,7 @@
       line.append(first);
       for (const column of columns.slice(1)) {
         const value = column.value(row);
-        cell(line, column.number ? plain(value) : value, column.number ? "number" : "");
+        cell(line, column.number ? plain(value) : value, column.number ? "number" : column.kind);
       }
     }
     byId("rows").replaceWith(body);
