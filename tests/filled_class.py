@@ -26,18 +26,19 @@ class Inventor(Executor):
     """Stands for the threads in which submissions are graded; answers at once."""
 
     def __init__(self, exercise: Exercise) -> None:
-        self.exercise, self.chance = exercise, random.Random("results")
+        self.exercise = exercise
 
     def submit(self, _, setup: Setup, job: Job, /, *args, **kwargs) -> Future[Graded]:
-        share = self.chance.choice((0, 0.25, 0.5, 1, 1, 1))
+        chance = random.Random(job.key)
+        share = chance.choice((0, 0.25, 0.5, 1, 1, 1))
         checks = [{"id": each.id, "points": each.points * share} for each in self.exercise.checks]
         report = {
             "exercise": self.exercise.name,
             "submission": job.source,
             "score": sum(each["points"] for each in checks),
             "max_score": self.exercise.max_score,
-            "outcome": "graded" if share else self.chance.choice(("graded", "student_error", "timeout")),
-            "diagnosis": INVENTED + self.chance.choice(TOLD[1:]) if share < 1 else "",
+            "outcome": "graded" if share else chance.choice(("graded", "student_error", "timeout")),
+            "diagnosis": INVENTED + chance.choice(TOLD[1:]) if share < 1 else "",
             "truth_sha256": job.key,
             "checks": checks,
             "recording": "03_teleop.rrd",

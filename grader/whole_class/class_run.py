@@ -139,7 +139,7 @@ class ClassRun:
     def plan(self, found: Iterable[Found], at_once: int | None) -> Plan:
         """Return what grading these submissions will take; reads the journal and writes nothing."""
         return make_plan(
-            self.out, read_results(self.out).all(), {each.student for each in found}, at_once=at_once, keep=self.keep,
+            self.out, read_results(self.out), {each.student for each in found}, at_once=at_once, keep=self.keep,
             trials=len(chosen_trials(self.exercise, self.trials)), most=self.exercise.max_score,
         )  # fmt: skip
 

@@ -11,6 +11,7 @@ from statistics import fmean
 from typing import Any
 
 from gz_course.grader.whole_class.grading import REPORT
+from gz_course.grader.whole_class.journal import Results
 from gz_course.grader.whole_class.kept import is_kept, readable_size, recordings_on_disk
 
 LOOKED_AT = 50  # reports of earlier gradings
@@ -27,7 +28,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Plan:
-    """A class before it is graded. `done` submissions have results in the journal.
+    """A class before it is graded. `done` submissions have results in the journal, which has `damaged` lines.
 
     `at_once` is None on Dask, where the number of workers is not known before.
     """
@@ -39,6 +40,7 @@ class Plan:
     keep: str
     measured: Measured | None
     free: int
+    damaged: int = 0
 
     @property
     def left(self) -> int:
@@ -50,6 +52,9 @@ class Plan:
         at_once = "one for each thread of Dask's workers" if self.at_once is None else str(self.at_once)
         text = f"{self.submissions} submissions, {trials} each, {at_once} at a time"
         told = [text + (f"; {self.done} are done" if self.done else "")]
+        if self.damaged:
+            lines = "1 line of the journal is" if self.damaged == 1 else f"{self.damaged} lines of the journal are"
+            told.append(f"{lines} damaged or cut off; what is missing is graded again")
         if not self.left:
             return told
         if self.measured is None:
@@ -59,24 +64,23 @@ class Plan:
         told.append(f"about {text} for {self.left} gradings{'' if self.at_once else ' on one worker'}")
         size = self.left * one.kept * one.size
         if size:
-            text = (
-                f"recordings (--keep {self.keep}): about {readable_size(size)}, {readable_size(one.size)} for a student"
-            )
-            told.append(f"{text}; {readable_size(self.free)} are free")
+            each, free = readable_size(one.size), readable_size(self.free)
+            told.append(f"recordings (--keep {self.keep}): about {readable_size(size)}, {each} each; {free} are free")
         if size > self.free:
             told.append("that is more than there is: give --keep failing or --keep none, or --out on a larger disk")
         return told
 
 
 def make_plan(
-    out: Path, results: Sequence[dict[str, Any]], students: set[str], *, trials: int, at_once: int | None, keep: str,
+    out: Path, journal: Results, students: set[str], *, trials: int, at_once: int | None, keep: str,
     most: float,
 ) -> Plan:  # fmt: skip
-    """Return the plan for these students of a class whose journal has `results`; `most` points are full marks."""
+    """Return the plan for these students of a class with this journal; `most` points are full marks."""
+    results = journal.all()
     place = next(path for path in (out, *out.absolute().parents) if path.is_dir())
     done = len({result["student"] for result in results} & students)
     measures = measured(out, results, keep, most)
-    return Plan(len(students), done, trials, at_once, keep, measures, shutil.disk_usage(place).free)
+    return Plan(len(students), done, trials, at_once, keep, measures, shutil.disk_usage(place).free, journal.damaged)
 
 
 def measured(out: Path, results: Sequence[dict[str, Any]], keep: str, most: float) -> Measured | None:
