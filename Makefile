@@ -16,7 +16,7 @@ COMPILE := $(BIN)/python -m compileall -q sim grader public
 FILTER := ! git rev-parse --git-dir >/dev/null 2>&1 || \
     git config filter.notebook-outputs.clean 'python3 -I -S grader/tools/notebook_outputs.py'
 
-.PHONY: setup chapters update demo test verify prove-exercises prove-long attacks prove-determinism bench book fuzz worlds lint clean
+.PHONY: setup chapters update demo test verify prove-exercises prove-long attacks prove-determinism soak bench book fuzz worlds lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -75,6 +75,12 @@ attacks: .venv/with-tools
 GRADINGS ?= 200
 prove-determinism: .venv/with-tools
 	exec $(BIN)/python -m gz_course.tests.determinism $(GRADINGS)
+
+# Long runs: MINUTES of simulated time of a world with its bridge and three nodes, and a class of STUDENTS.
+MINUTES ?= 60
+STUDENTS ?= 500
+soak: .venv/with-tools
+	exec $(BIN)/python -m gz_course.tests.soak --minutes $(MINUTES) --students $(STUDENTS) $(SOAK_OPTIONS)
 
 # Worlds of a folder, such as a checkout of gz-sim 8, against the table of what they do here: make worlds DIR=../gz-sim
 worlds: .venv/with-tools

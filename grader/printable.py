@@ -15,7 +15,9 @@ NOT_STORABLE = re.compile("[^\t\n\r -~\xa0-\ud7ff\ue000-\ufdcf\ufdf0-\ufffd\U000
 
 def shown(text: str, longest: int = LONGEST) -> str:
     """Return `text` on one line, cut to `longest` characters, with everything unprintable replaced."""
-    clean = "".join(c if c.isprintable() else " " if c in "\t\n\r" else "\N{REPLACEMENT CHARACTER}" for c in text)
+    clean = text
+    if not text.isprintable():
+        clean = "".join(c if c.isprintable() else " " if c in "\t\n\r" else "\N{REPLACEMENT CHARACTER}" for c in text)
     return clean if len(clean) <= longest else f"{clean[: longest - 1]}…"
 
 

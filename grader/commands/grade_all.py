@@ -13,11 +13,15 @@ from rich.markup import escape
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import find_exercise
+from gz_course.grader.printable import shown
 from gz_course.grader.report.format import with_report_flags
+from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import Found
+
+ESTIMATED_AFTER = 20  # gradings of this run
 
 
 @with_report_flags
@@ -40,6 +44,10 @@ def command(
         str | None,
         typer.Option(help="As for course grade: the least level. Default: B, unless --sandbox names a level."),
     ] = None,
+    keep: Annotated[
+        str, typer.Option(help="Whose recordings stay: all, failing (those without full marks) or none.")
+    ] = "all",
+    plan: Annotated[bool, typer.Option("--plan", help="Print what it will take, and grade nothing.")] = False,
     *,
     reports: dict[str, bool],
 ) -> None:
@@ -48,8 +56,12 @@ def command(
     from gz_course.grader.run.sandbox import AUTO, OFFICIAL
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import find_submissions
+    from gz_course.grader.whole_class.kept import KEEP
 
     blot_out()
+    if keep not in KEEP:
+        near = did_you_mean(keep, KEEP)
+        raise UsageError(f"--keep {shown(keep, 40)}: expected {', '.join(KEEP[:-1])} or {KEEP[-1]}{near}")
     if jobs is not None and dask is not None:
         raise UsageError("--jobs is for this machine and --dask for Dask's workers; give one of them")
     if demand is None and sandbox == AUTO:
@@ -57,15 +69,24 @@ def command(
     chosen = find_exercise(exercise)
     _check_places(submissions, out)
     console = Console(stderr=True)
-    run = ClassRun(chosen, out, seed, trials, tuple(reports), sandbox, demand)
+    run = ClassRun(chosen, out, seed, trials, tuple(reports), sandbox, demand, keep)
     with ExitStack() as stack:
         found, left_out = find_submissions(submissions, chosen, stack)
         if left_out:
             console.print(f"left out, because they are no submissions: {', '.join(left_out)}", markup=False)
+        if plan:
+            _print_plan(run, found, jobs, dask, Console())
+            raise typer.Exit(0)
         results = _graded(run, found, jobs, dask, console)
     failed = [result for result in results if result["outcome"] == "infra"]
     _print_summary(results, failed, chosen.max_score, out)
     raise typer.Exit(3 if failed else 0)
+
+
+def _print_plan(run: ClassRun, found: list[Found], jobs: int | None, dask: str | None, console: Console) -> None:
+    at_once = run.level_and_jobs(jobs)[1] if dask is None else None
+    for line in run.plan(found, at_once).lines():
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 def _check_places(submissions: Path, out: Path) -> None:
@@ -81,20 +102,32 @@ def _graded(
     run: ClassRun, found: list[Found], jobs: int | None, dask: str | None, console: Console
 ) -> list[dict[str, Any]]:
     """Run the class with a progress bar in a terminal, elsewhere with a line for each student."""
+    import sys
+    import time
+
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+    from gz_course.grader.whole_class.plan import readable_time
+
+    _print_plan(run, found, jobs, dask, console)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     progress = Progress(*columns, console=console, disable=not console.is_terminal)
     bar = progress.add_task("starting", total=len(found))
-    count = 0
+    count = new = 0
+    began = time.monotonic()
 
     def told(result: dict[str, Any], anew: bool) -> None:
-        nonlocal count
-        count += 1
+        nonlocal count, new
+        count, new = count + 1, new + anew
         progress.update(bar, advance=1, description=_cut(result["student"]))
         line = f"{count}/{len(found)}  {_line(result, run.exercise.max_score)}{'' if anew else '  (done before)'}"
-        if not console.is_terminal or result["outcome"] == "infra":
+        if not console.is_terminal:
+            print(line, file=sys.stderr, flush=anew)  # ten thousand lines of an earlier run: rich would take seconds
+        elif result["outcome"] == "infra":
             console.print(line, markup=False, highlight=False, soft_wrap=True)
+        if anew and new == ESTIMATED_AFTER < len(found) - count:
+            left = readable_time((time.monotonic() - began) / new * (len(found) - count))
+            console.print(f"about {left} for the other {len(found) - count}", markup=False, highlight=False)
 
     try:
         with progress:
@@ -119,6 +152,8 @@ def _print_summary(results: list[dict[str, Any]], failed: list[dict[str, Any]], 
     from statistics import fmean, median
 
     from gz_course.grader.whole_class.gradebook import GRADEBOOK
+    from gz_course.grader.whole_class.index import INDEX
+    from gz_course.grader.whole_class.kept import readable_size, recordings_on_disk
 
     console = Console()
     scores = sorted(result["score"] for result in results if result["score"] is not None)
@@ -134,4 +169,9 @@ def _print_summary(results: list[dict[str, Any]], failed: list[dict[str, Any]], 
         console.print(text, markup=False, highlight=False, soft_wrap=True)
     if failed:
         console.print("The same command tries these again.", highlight=False)
-    console.print(f"gradebook: {out / GRADEBOOK}", markup=False, highlight=False, soft_wrap=True)
+    students, size = recordings_on_disk(out, results)
+    if students:
+        text = f"recordings: {students} students, {readable_size(size)} ({readable_size(size / students)} each)"
+        console.print(text, markup=False, highlight=False)
+    for name, file in (("gradebook", GRADEBOOK), ("page", INDEX)):
+        console.print(f"{name}: {out / file}", markup=False, highlight=False, soft_wrap=True)

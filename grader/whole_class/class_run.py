@@ -11,7 +11,6 @@ import dataclasses
 import hashlib
 import json
 import os
-import re
 import shutil
 from collections import deque
 from collections.abc import Callable, Iterable
@@ -30,9 +29,13 @@ from gz_course.grader.run.sandbox import AUTO, LEVELS, check_jobs, choose, level
 from gz_course.grader.submission.intake import Selection
 from gz_course.grader.whole_class.dask_cluster import dask_executor
 from gz_course.grader.whole_class.found import Found
-from gz_course.grader.whole_class.gradebook import GRADEBOOK, as_csv, write_gradebook
+from gz_course.grader.whole_class.gradebook import as_csv, write_gradebook
 from gz_course.grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gradings_end_here
-from gz_course.grader.whole_class.journal import JOURNAL, Journal
+from gz_course.grader.whole_class.index import write_index
+from gz_course.grader.whole_class.journal import JOURNAL, Journal, read_results
+from gz_course.grader.whole_class.kept import is_kept, without_recordings
+from gz_course.grader.whole_class.plan import Plan, make_plan
+from gz_course.grader.whole_class.students_folder import PART, folder_name
 from gz_course.grader.whole_class.versions import versions
 
 LOOK = 2.0  # [s] between two checks that the workers still exist
@@ -41,15 +44,16 @@ HOPELESS = 6  # failures in a row, before any success, after which the run ends
 # [s], [s] and wall seconds per simulated second of a grading. Its own watchdog ends what takes too much; this is for a
 # grading that hangs nevertheless.
 START_UP, PER_TRIAL, WALL_FACTOR = 600.0, 600.0, 60.0
-PART = ".part-"
-LONGEST_FOLDER = 80  # [bytes] of the name of a student's folder
 
 Result = dict[str, Any]
 
 
 @dataclass
 class ClassRun:
-    """The grading of one class: what, into which folder, and how. `reports` are formats besides JSON."""
+    """The grading of one class: what, into which folder, and how.
+
+    `reports` are formats besides JSON; `keep` says whose recordings stay (`kept.py`).
+    """
 
     exercise: Exercise
     out: Path
@@ -58,6 +62,7 @@ class ClassRun:
     reports: tuple[str, ...] = ()
     sandbox: str = "auto"
     demand: str | None = None
+    keep: str = "all"
 
     def __post_init__(self) -> None:
         files, choice = bundle.bundle(self.exercise, self.trials)
@@ -121,8 +126,22 @@ class ClassRun:
                     results[each.student] = result
                     told(result, True)
             ordered = [results[student] for student in order]
-            write_gradebook(self.out, as_csv(self.exercise, ordered))
+            try:
+                write_gradebook(self.out, as_csv(self.exercise, ordered))
+                write_index(self.out, self.exercise, ordered, self.reports)
+            except OSError as error:
+                raise InfrastructureError(
+                    f"the gradebook cannot be written to {self.out}: {error.strerror}; every result is in the journal, "
+                    "and the same command writes it"
+                ) from None
             return ordered
+
+    def plan(self, found: Iterable[Found], at_once: int | None) -> Plan:
+        """Return what grading these submissions will take; reads the journal and writes nothing."""
+        return make_plan(
+            self.out, read_results(self.out), {each.student for each in found}, at_once=at_once, keep=self.keep,
+            trials=len(chosen_trials(self.exercise, self.trials)), most=self.exercise.max_score,
+        )  # fmt: skip
 
     def _submit(self, executor: Executor, job: Job) -> Future[Graded]:
         try:
@@ -150,12 +169,20 @@ class ClassRun:
         weakest = self.sandbox if self.sandbox != AUTO else self.demand or LEVELS[-1]
         check_jobs(weakest, most)
 
-    def _here(self, jobs: int | None, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
-        """Return threads of this process, each of which waits for one grading."""
-        level = choose(self.sandbox, self.demand)  # once, so that all submissions get the same
+    def level_and_jobs(self, jobs: int | None) -> tuple[str, int]:
+        """Return the sandbox's level here and how many gradings run at a time.
+
+        Raises UsageError if the level does not keep as many apart, InfrastructureError if no demanded level works.
+        """
+        level = choose(self.sandbox, self.demand)
         if jobs is None:
             jobs = len(os.sched_getaffinity(0)) if level_module(level).PRIVATE_NETWORK else 1
         check_jobs(level, jobs)
+        return level, jobs
+
+    def _here(self, jobs: int | None, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
+        """Return threads of this process, each of which waits for one grading."""
+        level, jobs = self.level_and_jobs(jobs)  # once, so that all submissions get the same
         try:
             folder = stack.enter_context(TemporaryFolder("course-class-"))
         except OSError as error:
@@ -187,7 +214,7 @@ class ClassRun:
         identity = [found.student, found.id, found.source, *what, *self._same]
         key = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
         done = journal.current(key)
-        if done is not None and (self.out / done["folder"] / REPORT).is_file():
+        if done is not None and self._has_files(done):
             return done, None, False
         if chosen is not None:
             result["sha256"] = what[1]
@@ -197,6 +224,12 @@ class ClassRun:
         self._store(result, {REPORT: self._unread(result)})
         journal.add(key, result)
         return result, None, True
+
+    def _has_files(self, result: Result) -> bool:
+        """Return whether the folder of a result still has its report, and its recordings if they are to be kept."""
+        score = result["score"]
+        missing = not result.get("recordings", True) and is_kept(self.keep, score, self.exercise.max_score)
+        return not missing and (self.out / result["folder"] / REPORT).is_file()
 
     def _blank(self, found: Found) -> Result:
         return {
@@ -245,7 +278,11 @@ class ClassRun:
             return
         result |= {name: report[name] for name in ("score", "outcome", "diagnosis", "truth_sha256")}
         result["points"] = {check["id"]: check["points"] for check in report["checks"]}
-        self._store(result, graded.files)
+        files = graded.files
+        if not is_kept(self.keep, report["score"], self.exercise.max_score):
+            files = without_recordings(files)
+            result["recordings"] = False
+        self._store(result, files)
         journal.add(key, result)
 
     def _store(self, result: Result, files: dict[str, bytes]) -> None:
@@ -273,13 +310,3 @@ def _outcome(future: Future[Graded]) -> Graded:
         return Graded(None, fault="it was cancelled")
     except Exception as error:  # a worker that died or a broken connection, never the student's fault
         return Graded(None, fault=shown(f"{type(error).__name__}: {error}"))
-
-
-def folder_name(student: str) -> str:
-    """Return a name for a student's folder that is safe on every file system, stable and unique."""
-    safe = re.sub(r"[^\w.,()@ -]", "_", student).strip(" .").lstrip("-@").replace("..", "_")
-    while len(safe.encode()) > LONGEST_FOLDER:
-        safe = safe[:-1]
-    if safe == student and safe.casefold() not in (GRADEBOOK, JOURNAL):
-        return safe
-    return f"{safe or 'student'}-{hashlib.sha256(student.encode()).hexdigest()[:8]}"

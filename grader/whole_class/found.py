@@ -32,6 +32,7 @@ from gz_course.grader.submission.archive import (
     zip_members,
 )
 from gz_course.grader.submission.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
+from gz_course.grader.whole_class.unique_names import unique_names
 
 METADATA = "submission_metadata.yml"  # written by Gradescope beside the folders of an export
 LARGEST_METADATA = 4 << 20  # [bytes]
@@ -87,10 +88,10 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     groups: dict[_Owner, _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
     for name, thing in sorted(top.items()):
-        if name.startswith(".") and name.strip("."):  # a hidden folder belongs to nobody, but must be reported
+        owner, file, when = _owner(name, folder=callable(thing), names=names)
+        if name.startswith(".") and name.strip(".") and not owner.id:  # a hidden folder is nobody's, but is reported
             left_out.append(_label(name))
             continue
-        owner, file, when = _owner(name, folder=callable(thing), names=names)
         if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
             left_out.append(_label(name))
             continue
@@ -110,17 +111,9 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
 def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
     """Give every student a unique, printable name."""
     names = [_label(owner.student) for owner in groups]
-    longer = [
-        f"{name} ({owner.id})" if names.count(name) > 1 and owner.id else name
-        for name, owner in zip(names, groups, strict=True)
-    ]
-    taken: set[str] = set()
+    labels = unique_names(names, [owner.id for owner in groups])
     found = []
-    for name, (owner, group) in zip(longer, groups.items(), strict=True):
-        label, number = name, 1
-        while label.casefold() in taken or (label == name and longer.count(name) > 1):
-            label, number = f"{name} [{number}]", number + 1
-        taken.add(label.casefold())
+    for label, (owner, group) in zip(labels, groups.items(), strict=True):
         source = _label(group.source)
         found.append(Found(label, owner.id, source, partial(_read, group, exercise, source)))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))

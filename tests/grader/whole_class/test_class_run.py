@@ -10,11 +10,12 @@ from hypothesis import strategies as st
 from gz_course.grader.errors import InfrastructureError, RefusedError, UnreadableError, UsageError
 from gz_course.grader.submission.intake import Selection
 from gz_course.grader.whole_class import class_run
-from gz_course.grader.whole_class.class_run import ClassRun, folder_name
+from gz_course.grader.whole_class.class_run import ClassRun
 from gz_course.grader.whole_class.found import Found
 from gz_course.grader.whole_class.gradebook import GRADEBOOK
 from gz_course.grader.whole_class.grading import Graded
 from gz_course.grader.whole_class.journal import JOURNAL
+from gz_course.grader.whole_class.students_folder import folder_name
 
 
 class Machine:
