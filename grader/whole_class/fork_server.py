@@ -1,8 +1,8 @@
 """The process from which the gradings of a class are forked: it has done the imports, and does nothing else.
 
 `forked_process.py` runs it as `python -m gz_course.grader.whole_class.fork_server PARENT DESCRIPTOR ROOM` and sends an
-order for each grading: folder, arguments of `course`, environment. Each grading is a process of its own, which keeps modules
-and nothing else: this process never reads a submission, and what a grading does stays in it.
+order for each grading: folder, arguments of `course`, environment. Each grading is a process of its own, which keeps
+modules and nothing else: this process never reads a submission, and what a grading does stays in it.
 
 A grading is a child of PARENT, not of this process, so that it goes on should this process be killed: it is forked by a
 process in between, which ends at once; PARENT is a subreaper. Only then the grading begins, as it asks for a signal at
