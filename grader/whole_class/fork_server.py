@@ -156,7 +156,7 @@ def _in_between(parent: int, channel: Connection, told: int, tell: int, wait: in
         if os.fork():
             os._exit(0)
         os.setsid()
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
         channel.close()
         os.write(tell, b"%d" % os.getpid())  # the starter may send signals from now on
         os.close(tell)
@@ -192,6 +192,7 @@ def grade(order: dict[str, Any]) -> NoReturn:
 
     code = 3
     try:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         os.chdir(order["folder"])
         errors = os.open("stderr", os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o600)
         os.dup2(errors, 2)

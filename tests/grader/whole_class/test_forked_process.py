@@ -106,6 +106,7 @@ def test_what_a_grading_raises_is_its_own_end(server, tmp_path):
     waits = run(ours, tmp_path / "two", "wait")
     with pytest.raises(subprocess.TimeoutExpired):
         waits.wait(0.0)
+    until_it_waits(tmp_path / "two")
     os.killpg(waits.pid, signal.SIGINT)  # as `end` does: a grading hears Ctrl-C, the server does not
     assert waits.wait(LONG) == 3 and "KeyboardInterrupt" in (tmp_path / "two/stderr").read_text()
 
