@@ -187,7 +187,7 @@ class Supervised:
 
 def _start(jobs: list[Job], memory: int, writing: int) -> int:
     """Start a child that does the jobs: a fork of this process, or a new Python where threads forbid that."""
-    if threading.active_count() == 1 and not WITH_THREADS & sys.modules.keys():
+    if _may_fork():
         sys.stdout.flush()
         sys.stderr.flush()
         pid = os.fork()
@@ -208,6 +208,12 @@ def _start(jobs: list[Job], memory: int, writing: int) -> int:
         started.stdin.write(pickle.dumps(jobs))
     started.returncode = 0  # it is waited for by its number
     return started.pid
+
+
+def _may_fork() -> bool:
+    if len(os.listdir("/proc/self/task")) == 1:  # noqa: PTH208
+        return True  # a fork itself, which has none of the threads of its modules
+    return threading.active_count() == 1 and not WITH_THREADS & sys.modules.keys()
 
 
 def main() -> None:
