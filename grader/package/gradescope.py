@@ -52,7 +52,7 @@ def package(exercise: Exercise, target: Path, trials: str | None = None, demand:
         for key, value in values.items():
             text = text.replace(f"@{key}@", value)
         contents[name] = text.encode()
-    write_zip(target, contents, PROGRAMS)
+    write_zip(target, contents)
     return sorted(contents)
 
 

@@ -24,7 +24,7 @@ from gz_course.grader.run.sandbox import OFFICIAL, level_module
 
 RUN = "tests/run.sh"
 PROGRAM = Path(__file__).parent / "run_prairielearn"
-IMAGE = "gz-ros2-course"  # the image of the repository's Dockerfile
+IMAGE = "gz-ros2-course-root"  # the image of the repository's Dockerfile, as root: docs/learning_platforms.md
 LONGEST = 600  # [s] that PrairieLearn gives a grading
 SPARE = 20  # [s] for the end of a grading that takes too long, and for its results
 
@@ -53,7 +53,7 @@ def package(
     contents |= {RUN: text.encode(), "info.json": _info(exercise, image, seconds), "question.html": _page(exercise)}
     contents |= {f"clientFilesQuestion/{_flat(name)}": (exercise.folder / name).read_bytes() for name in exercise.parts}
     contents = {f"{exercise.name}/{name}": data for name, data in contents.items()}
-    write_zip(target, contents, (f"{exercise.name}/{RUN}",))
+    write_zip(target, contents)
     return sorted(contents)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import stat
 import zipfile
-from collections.abc import Collection
 from pathlib import Path
 
 from gz_course.grader.errors import UsageError
@@ -21,8 +20,8 @@ def seconds_for(exercise: Exercise, trials: str) -> float:
     return START_UP + sum(PER_TRIAL + WALL_FACTOR * (trial.duration or exercise.duration) for trial in asked)
 
 
-def write_zip(target: Path, contents: dict[str, bytes], programs: Collection[str]) -> None:
-    """Write the zip atomically: `target` holds either its former content or the complete zip.
+def write_zip(target: Path, contents: dict[str, bytes]) -> None:
+    """Write the zip atomically: `target` holds either its former content or the complete zip. Scripts can be run.
 
     Raises UsageError if it cannot be written.
     """
@@ -35,7 +34,7 @@ def write_zip(target: Path, contents: dict[str, bytes], programs: Collection[str
             for name, data in sorted(contents.items()):
                 info = zipfile.ZipInfo(name, WHEN)
                 info.compress_type = zipfile.ZIP_DEFLATED
-                info.external_attr = (stat.S_IFREG | (0o755 if name in programs else 0o644)) << 16
+                info.external_attr = (stat.S_IFREG | (0o755 if data.startswith(b"#!") else 0o644)) << 16
                 archive.writestr(info, data)
         part.replace(target)
     except OSError as error:
