@@ -160,7 +160,7 @@ class Gate:
         if not rest:
             return _response(HTTPStatus.FOUND, "", {"Location": f"/{self._token}/"})
         origin = request.headers.get("Origin")
-        # No page of a browser can set X-Forwarded-Host; a proxy that asks under a name of its own says the page's in it.
+        # A proxy that asks under its own name puts that of the page into X-Forwarded-Host, which no page can set.
         hosts = {request.headers.get("Host"), request.headers.get("X-Forwarded-Host")}
         if origin is not None and urlsplit(origin).netloc not in hosts:
             return _response(HTTPStatus.FORBIDDEN, "Another page asks for this one.\n")
