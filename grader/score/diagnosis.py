@@ -270,7 +270,17 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
                     f"had published anything on {topic}. rclpy.spin(node) keeps a node alive; rclpy.spin_once(node) "
                     "waits for one event only."
                 )
-            return f"Your node has a publisher on {topic} but never published a message."
+            return f"Your node has a publisher on {topic} but never published a message{_unheard(facts)}."
+    return ""
+
+
+def _unheard(facts: dict[str, Any]) -> str:
+    """Return the end of a sentence on a subscription whose callback never ran, as nobody else publishes there."""
+    own = {(e["topic"], e["node"]) for e in _of(facts, "publisher")}
+    for e in _of(facts, "subscription"):
+        others = {node for topic, node in own if topic == e["topic"]} - {e["node"]}
+        if (e["topic"], e["node"]) in own and not others and e["topic"] not in facts.get("offered", {}):
+            return f": it subscribes to {e['topic']} itself, where nobody else publishes, so that callback never runs"
     return ""
 
 
