@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import COUNT, LENGTHS, Asked, predicts
+from gz_course.grader.score.explanations.answers import COUNT, LENGTHS, Asked, Named, predicts
 
 
 @predicts("rounded to two decimals", only=LENGTHS)
@@ -15,6 +15,16 @@ def two_decimals(asked: Asked) -> np.ndarray:
 @predicts("rounded to one decimal", only=LENGTHS)
 def one_decimal(asked: Asked) -> np.ndarray:
     return np.round(asked.truth, 1)
+
+
+@predicts("rounded to significant digits", only=LENGTHS, rank=2)
+def significant_digits(asked: Asked) -> Named:
+    scale = 10.0 ** np.floor(np.log10(np.abs(asked.truth)))
+    candidates = [(digits, np.round(asked.truth / scale, digits - 1) * scale) for digits in (1, 2, 3)]
+    digits, answers = max(candidates, key=lambda each: asked.met(each[1]))
+    return Named(
+        f"rounded to {digits} significant digit{'s' * (digits > 1)}, as .{digits - 1}e or .{digits}g do", answers
+    )
 
 
 @predicts("cut off after two decimals", only=LENGTHS)

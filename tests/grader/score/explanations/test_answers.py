@@ -1,5 +1,6 @@
 """Wrong programs, one misconception each, answer the scans of a robot: the first sentence names the fault."""
 
+import itertools
 import math
 import statistics
 
@@ -139,7 +140,26 @@ def nearest(scan):
     return scan.ranges.index(min(valid(scan)))
 
 
+def until_invalid(scan):
+    """Return the ranges before the first invalid one."""
+    return list(itertools.takewhile(lambda r: scan.range_min < r < scan.range_max, scan.ranges))
+
+
+def halves(scan, kept):
+    value = 0.0
+    for each in valid(scan):
+        value = (value + each) / 2
+    return value
+
+
+def x_of(scan, ray):
+    return scan.ranges[ray] * math.cos(scan.angle_min + ray * scan.angle_increment)
+
+
 MINIMA = {
+    "before the first invalid one: a break": lambda scan, kept: min(until_invalid(scan)),
+    "2 significant digits": lambda scan, kept: float(f"{min(valid(scan)):.1e}"),
+    "x of the nearest point": lambda scan, kept: x_of(scan, nearest(scan)),
     "those of the scan before": before(1),
     "those of two scans before": before(2),
     "three to ten scans before": before(5),
