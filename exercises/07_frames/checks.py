@@ -306,6 +306,8 @@ def predictions(recording, found, truth):
     yield "the place of the scanner, not of the hit", both.place
     yield "transformed twice", both.of(both.of(hits))
     yield "transformed twice by the pose of the robot", robot.of(robot.of(on_robot))
+    for words, (x, y, z, w) in MISCONCEPTIONS["of_other_quaternions"](both.turn):
+        yield words, Frame(matrices(x, y, z, w), both.place).of(hits)
     for words, points in MISCONCEPTIONS["of_other_headings"](both.turn, hits, found.points - both.place):
         yield words, points + both.place
     for words, points in MISCONCEPTIONS["of_other_rays"](found):

@@ -5,6 +5,7 @@ import numpy as np
 CLOSE = 0.03  # [m]
 SAME_WAY = 0.03  # [rad]
 SHARE = 0.9  # of the points
+SIGNS = (1, -1, -1), (-1, 1, -1), (-1, -1, 1), (1, 1, 1)  # of the diagonal, for x, y, z, w
 
 
 def about_z(angle):
@@ -37,6 +38,19 @@ def of_other_headings(turn, hits, given):
         one, other = (np.einsum("nij,nj->ni", about_z(angle(z, w)), hits) for z, w in signs)
         nearer = np.linalg.norm(one - given, axis=1) <= np.linalg.norm(other - given, axis=1)
         yield words, np.where(nearer[:, None], one, other)
+
+
+def of_other_quaternions(turn):
+    """Yield quaternions (x, y, z, w), each (n,), that are not those of the rotations (n, 3, 3)."""
+    squares = [1 + turn[:, 0, 0] * a + turn[:, 1, 1] * b + turn[:, 2, 2] * c for a, b, c in SIGNS]
+    x, y, z, w = (np.sqrt(np.maximum(square, 0)) / 2 for square in squares)
+    x = np.copysign(x, turn[:, 2, 1] - turn[:, 1, 2])
+    y = np.copysign(y, turn[:, 0, 2] - turn[:, 2, 0])
+    z = np.copysign(z, turn[:, 1, 0] - turn[:, 0, 1])
+    words = "those of a quaternion in another order: ROS has x, y, z, w"
+    yield words, (w, x, y, z)
+    yield words, (y, z, w, x)
+    yield words, (z, y, x, w)
 
 
 def of_other_rays(found):

@@ -275,13 +275,19 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
 
 
 def _unheard(facts: dict[str, Any]) -> str:
-    """Return the end of a sentence on a subscription whose callback never ran, as nobody else publishes there."""
+    """Return the end of a sentence on why a node publishes nothing, as far as its subscriptions tell."""
     own = {(e["topic"], e["node"]) for e in _of(facts, "publisher")}
     for e in _of(facts, "subscription"):
         others = {node for topic, node in own if topic == e["topic"]} - {e["node"]}
         if (e["topic"], e["node"]) in own and not others and e["topic"] not in facts.get("offered", {}):
             return f": it subscribes to {e['topic']} itself, where nobody else publishes, so that callback never runs"
-    return ""
+    heard = [e["topic"] for e in _of(facts, "subscription") if e["topic"] in facts.get("offered", {})]
+    if not heard:
+        return ""
+    return (
+        f", although it hears {heard[0]}: a condition before publish() never holds, or an error is caught, such as "
+        "that of a transform between frames that do not exist"
+    )
 
 
 def _too_early(facts: dict[str, Any], topic: str) -> str:

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from types import ModuleType
 
-from gz_course.sim.did_you_mean import nearest_name
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 from gz_course.sim.launch.ament_prefix import packages_with_launch_file
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_description import LaunchDescription

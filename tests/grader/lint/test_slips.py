@@ -45,6 +45,7 @@ def test_a_right_file_has_none():
     ("old", "new", "words"),
     [
         ("def __init__", "def _init_", "the constructor is __init__"),
+        ("at {now}", "at {now.intensities}", "in ranges"),
         ('"__main__"', '"main"', "this condition, __name__ == 'main', never runs"),
         ("spin(Talker())", "spin(Talker())\n    tick()", "tick() stands behind rclpy.spin()"),
         ("self.start = None", "self.timer.cancel()", "self.timer is cancelled in __init__"),

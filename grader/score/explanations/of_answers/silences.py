@@ -42,6 +42,28 @@ def every_nth(asked: Asked) -> str:
 
 
 @notices
+def only_changes(asked: Asked) -> str:
+    """Find answers that come only if the value differs enough from the last one that was given."""
+    known = np.flatnonzero(asked.answered)
+    if len(known) < 4 or asked.answered.mean() > 0.95 or every_nth(asked) or stopped_answering(asked):
+        return ""
+    with np.errstate(invalid="ignore"):
+        if not np.all(np.abs(asked.given[known] - asked.truth[known]) <= asked.tolerance):
+            return ""
+    last = known[np.searchsorted(known, np.arange(len(asked.truth)), side="left").clip(1) - 1]
+    steps = np.abs(asked.truth - asked.truth[last])[known[0] + 1 :]
+    there = asked.answered[known[0] + 1 :]
+    missing = int(np.sum(~asked.answered))
+    if not there.any() or there.all() or steps[~there].max() > steps[there].min() + asked.tolerance:
+        return f"all your answers are right, but {missing} scans have none: something skips them"
+    least = steps[there].min()
+    return (
+        f"your node answers only when the value has changed, by {least:.2g} or more: {missing} scans have no answer, and "
+        "each needs one"
+    )
+
+
+@notices
 def alternates(asked: Asked) -> str:
     known = asked.answered & np.isfinite(asked.given)
     with np.errstate(invalid="ignore"):
