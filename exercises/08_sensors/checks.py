@@ -178,11 +178,10 @@ def why_beside(at, ahead, left, places, right):
     seen = [before_camera(tuple(each[i] for each in at), place) for i in range(len(ahead)) for place in places]
     seen = np.array(seen).reshape(len(ahead), len(places), 2)
     # of the posts at that distance the one whose side and direction fit best
-    near = (np.abs(seen[:, :, 0] - RADIUS - ahead[:, None]) <= 0.15) & (
-        np.sign(seen[:, :, 1]) == np.sign(left)[:, None]
-    )
-    which = np.where(near, np.abs(seen[:, :, 1]), np.inf).argmin(axis=1)
-    known = near.any(axis=1) & (np.abs(left) > 0.05)
+    near = np.abs(seen[:, :, 0] - RADIUS - ahead[:, None]) <= 0.15
+    same_side = np.sign(seen[:, :, 1]) == np.sign(left)[:, None]
+    which = np.where(near & same_side, np.abs(seen[:, :, 1]), np.inf).argmin(axis=1)
+    known = (near & same_side).any(axis=1) & (np.abs(left) > 0.05)
     true = seen[np.arange(len(ahead)), which, 1]
     if known.sum() < FEWEST or near.any(axis=1).mean() < 0.9:
         return ""
@@ -261,7 +260,7 @@ def why_turned(recording, when, turned):
     }
     for words, steps in angles.items():
         for counts in (np.ones(len(steps), dtype=bool), turning):
-            if abs(float(steps[counts].sum()) - FULL_TURN) <= max(0.1, 1.2 * np.abs(steps).max(initial=0.0)):
+            if abs(float(steps[counts].sum()) - FULL_TURN) <= max(0.1, 3 * np.abs(steps).max(initial=0.0)):
                 return words.format(bias=bias)
     return ""
 
@@ -287,7 +286,8 @@ def counts_the_posts(recording, parameters):
     pictures = int((recording.signal("topics/camera/image/count").times <= first[0]).sum())
     turned = float(np.diff(truth(recording, "yaw", np.array([0, first[0]])))[0])
     if number < red and abs(turned) < 0.9 * FULL_TURN:
-        why = f"the number came when the robot had turned by {math.degrees(turned):.0f} degrees: the rest was not seen yet"
+        degrees = math.degrees(turned)
+        why = f"the number came when the robot had turned by {degrees:.0f} degrees: the rest was not seen yet"
     elif number == len(posts(recording, "blue")[0]) != red:
         why = "that is the number of blue posts"
     elif number > 3 * max(pictures, 1):

@@ -7,7 +7,7 @@ SETTLED = 7.0  # [s] after the start
 
 def explain(run):
     """Return the misconception that fits the run; empty if none does."""
-    looks = (open_loop, on_off, other_side, stopped, old_distance, wrong_sign, wound_up, saturated, swings)
+    looks = (open_loop, in_degrees, on_off, other_side, stopped, old_distance, wrong_sign, wound_up, saturated, swings)
     return next((said for look in looks if (said := look(run))), "")
 
 
@@ -17,6 +17,16 @@ def open_loop(run):
     if any(end["kind"] == "subscription" and end["topic"] == "/lidar/scan" for end in ends):
         return ""
     return "your node does not subscribe to /lidar/scan, so it drives open loop, without feedback"
+
+
+def in_degrees(run):
+    values = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    if len(values) < 50 or np.mean(values > 5.0) < 0.1:
+        return ""
+    return (
+        f"angular.z was up to {values.max():.0f} rad/s, as if it were in degrees per second, or an angle or a bearing "
+        "in degrees: all of them are in radians"
+    )
 
 
 def on_off(run):
@@ -48,7 +58,7 @@ def stopped(run):
 
 def old_distance(run):
     late = run.times > run.changed + 6.0
-    if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2:
+    if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2 or np.abs(run.along[late]).sum() < 1.0:
         return ""
     usual = float(np.median(run.distance[late]))
     if abs(usual - run.asked[0]) > 0.12:

@@ -58,8 +58,8 @@ def only_changes(asked: Asked) -> str:
         return f"all your answers are right, but {missing} scans have none: something skips them"
     least = steps[there].min()
     return (
-        f"your node answers only when the value has changed, by {least:.2g} or more: {missing} scans have no answer, and "
-        "each needs one"
+        f"your node answers only when the value has changed, by {least:.2g} or more: {missing} scans have no answer, "
+        "and each needs one"
     )
 
 
