@@ -162,7 +162,8 @@ def explain(asked: Asked) -> str:
         warnings.simplefilter("ignore", RuntimeWarning)  # such as the mean of no ranges, which is NaN
         found = _fitting(asked, wrong)
         told = f"your answers are {', or '.join(found)}" if found else _where_wrong(asked, wrong)
-    return "; ".join(filter(None, (told, said)))
+    both = (said, told) if told.startswith("where") else (told, said)
+    return "; ".join(filter(None, both))
 
 
 def _fitting(asked: Asked, wrong: np.ndarray) -> list[str]:

@@ -33,6 +33,12 @@ def stopped_answering(asked: Asked) -> str:
 def every_nth(asked: Asked) -> str:
     answered = np.flatnonzero(asked.answered)
     steps = np.diff(answered)
+    if len(steps) > 5 and np.ptp(steps) == 1 and steps.mean() >= 1.3 and np.mean(steps == np.median(steps)) < 0.8:
+        period = float(np.diff(asked.times[answered[[0, -1]]])[0] / len(steps))
+        return (
+            f"your node answers at even intervals of about {period:.2g} s, as a timer does, and not once for each "
+            "scan: publish and log in the callback of the scan"
+        )
     if len(steps) < 2 or steps[0] < 2 or np.mean(steps == np.median(steps)) < 0.8:
         return ""
     step = int(np.median(steps))

@@ -334,3 +334,24 @@ FITTED = {
 def test_a_misconception_with_a_number_in_it_is_named_with_the_number(statistic):
     said = {words: said_of(program, statistic) for words, program in FITTED[statistic].items()}
     assert {words: sentence for words, sentence in said.items() if words not in sentence} == {}
+
+
+def only_if_changed(scan, kept):
+    value = min(valid(scan))
+    if abs(value - kept.get("last", -1.0)) < 0.05:
+        return None
+    kept["last"] = value
+    return value
+
+
+def by_a_timer(scan, kept):
+    kept["n"] = kept.get("n", -1) + 1
+    return min(valid(scan)) if int(kept["n"] * 0.4) != int((kept["n"] - 1) * 0.4) else None
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [(only_if_changed, "only when the value has changed"), (by_a_timer, "at even intervals of about 0.25 s")],
+)
+def test_scans_without_an_answer(program, words):
+    assert words in said_of(program, "minimum")
