@@ -169,7 +169,8 @@ def feedback(recording, parameters):
     times = [start, *(each["at"] for each in said), end]
     gap = max(later - sooner for sooner, later in pairwise(times))
     if gap > LARGEST_GAP:
-        return wrong(f"{gap:.1f} s without feedback", end)
+        why = endless(run) or f"Your feedback is too rare: {len(said)} messages in {end - start:.0f} s"
+        return wrong(f"{gap:.1f} s without feedback", end, why)
     if len({(each["waypoint"], each["distance"]) for each in said}) == 1:
         return wrong("it was always the same", end, "Your feedback never changes: compute it anew in every round")
     indices = [each["waypoint"] for each in said]
@@ -187,11 +188,23 @@ def feedback(recording, parameters):
     return Finding(True, expected, f"{len(said)} messages")
 
 
+def endless(run):
+    """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
+    if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
+        return ""
+    return (
+        "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
+        "Patrol.Result (a function without return returns None, which is no result)"
+    )
+
+
 def result(recording, parameters):
     run, expected = Run(recording), "SUCCEEDED, with the number of waypoints"
     if gate := no_patrol(run, expected):
         return gate
     found, total = run.one("result", "patrol"), len(run.waypoints("patrol"))
+    if found is None and (why := endless(run)):
+        return Finding(False, expected, "no result came", explanation=why)
     if found is None:
         return gated(expected, "no result came")
     if run.nearest("patrol", found["at"])[0] < total:

@@ -108,6 +108,11 @@ def lidar_frame(recording, parameters):
         measured = f"the transform says x = {seen[0]:.2f}, y = {seen[1]:.2f}, z = {seen[2]:.2f} m"
         inverted = math.dist([-each for each in seen], MOUNT) < 0.005
         why = "the transform is inverted: parent and child are swapped" if inverted else ""
+        signs = [
+            name for name, one, other in zip("xyz", seen, MOUNT, strict=True) if abs(one + other) < 0.005 < abs(one)
+        ]
+        if signs and not inverted:
+            why = f"the sign of {' and '.join(signs)} is wrong"
         return Finding(False, expected, measured, explanation=why)
     return Finding(False, expected, "nobody publishes a static transform between base_link and lidar_link")
 

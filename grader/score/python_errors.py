@@ -98,6 +98,10 @@ MEANINGS = (
         "names of frames are not empty and do not begin with a slash",
     ),
     (
+        re.compile(r"RCLError: .*(?:context is invalid|context is not valid)|InvalidHandle|cannot use Destroyable"),
+        "rclpy.shutdown(), or destroy_node(), was called before: nothing can be published or read after it",
+    ),
+    (
         re.compile(r"NotInitializedException"),
         "rclpy.init() must be called before the first node is made",
     ),

@@ -45,6 +45,18 @@ def test_a_right_file_has_none():
     ("old", "new", "words"),
     [
         ("def __init__", "def _init_", "the constructor is __init__"),
+        ("at {now}", "at {now.intensities}", "in ranges"),
+        ('"__main__"', '"main"', "this condition, __name__ == 'main', never runs"),
+        ("spin(Talker())", "spin(Talker())\n    tick()", "tick() stands behind rclpy.spin()"),
+        ("self.start = None", "self.timer.cancel()", "self.timer is cancelled in __init__"),
+        ("self.start = None", "self.again = self.create_timer(1.0, self.tick)", "two timers call self.tick"),
+        ("self.publisher.publish(message)", "rclpy.shutdown()\n        self.publisher.publish(message)", "exchange"),
+        ("self.start = self.start or now", "if self.start:\n            self.start = now", "below  if self.start:"),
+        (
+            "self.start = self.start or now",
+            "self.n += 1\n        if self.n == 100:\n            pass",
+            "self.n is 100 only after 100 ticks of 0.1 s, which take 10 s",
+        ),
         ("\n    main()", "\n    pass", "nothing calls it"),
         ("\n    main()", "\n    main", "main without brackets"),
         ("self.timer.cancel()", "self.timer.cancel", "self.timer.cancel without brackets"),
