@@ -55,7 +55,7 @@ def fill(submissions: Path, out: Path, left: int = 0, **options) -> ClassRun:
     """Write results for all submissions but the last `left`; `options` are those of `ClassRun`."""
     exercise = find_exercise("03_teleop")
     run = ClassRun(exercise, out, **({"demand": "B"} | options))
-    run._here = lambda jobs, stack: (Inventor(exercise), 2, lambda: False)
+    run._here = lambda jobs, stack: (Inventor(exercise), lambda: 2, lambda: False)
     with ExitStack() as stack:
         found, _ = find_submissions(submissions, exercise, stack)
         run.grade(found[: len(found) - left], lambda *_: None)

@@ -1,1 +1,1 @@
-"""Packages of an exercise for other services: `gradescope.py`, and the programs that go into its zip."""
+"""Packages of an exercise for other services: `gradescope.py`, `prairielearn.py`, and the programs in their zips."""

@@ -10,14 +10,13 @@ Source: Gradescope, "Autograder Specifications", https://gradescope-autograders.
 from __future__ import annotations
 
 import shlex
-import stat
-import zipfile
 from pathlib import Path
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.bundle import bundle
-from gz_course.grader.exercise.trial import TRIALS, chosen_trials
+from gz_course.grader.exercise.trial import TRIALS
+from gz_course.grader.package.question import seconds_for, write_zip
 from gz_course.grader.run.sandbox import OFFICIAL, level_module
 from gz_course.grader.submission.intake import is_junk
 
@@ -27,8 +26,6 @@ CODE = ("sim", "grader", "public")
 FILES = ("pyproject.toml", "constraints.txt", "LICENSE")
 TRACES = (".pyc", ".rrd", ".part", ".orig", ".bak", "~")
 PROGRAMS = ("setup.sh", "run_autograder")
-START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
-WHEN = (1980, 1, 1, 0, 0, 0)  # date of every file in the zip, so that the same exercise gives the same bytes
 
 
 def package(exercise: Exercise, target: Path, trials: str | None = None, demand: str = OFFICIAL) -> list[str]:
@@ -39,8 +36,7 @@ def package(exercise: Exercise, target: Path, trials: str | None = None, demand:
     level_module(demand)
     if trials is None:
         trials = "all" if (exercise.twin / TRIALS).is_file() else "public"
-    asked = chosen_trials(exercise, trials)
-    seconds = START_UP + sum(PER_TRIAL + WALL_FACTOR * (trial.duration or exercise.duration) for trial in asked)
+    seconds = seconds_for(exercise, trials)
     files, choice = bundle(exercise, trials)
     options = ["--trials", choice, "--demand", demand]
     values = {
@@ -56,7 +52,7 @@ def package(exercise: Exercise, target: Path, trials: str | None = None, demand:
         for key, value in values.items():
             text = text.replace(f"@{key}@", value)
         contents[name] = text.encode()
-    _write(target, contents)
+    write_zip(target, contents)
     return sorted(contents)
 
 
@@ -71,23 +67,3 @@ def _programs() -> dict[str, bytes]:
             if path.is_file() and not any(map(is_junk, inside.parts)) and not path.name.endswith(TRACES):
                 found[inside.as_posix()] = path.read_bytes()
     return found
-
-
-def _write(target: Path, contents: dict[str, bytes]) -> None:
-    """Write the zip atomically: `target` holds either its former content or the complete zip."""
-    part = target.with_name(f".{target.name}.part")
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if target.is_dir():
-            raise UsageError(f"{target} is a folder; give the name of a file, such as {target / 'autograder.zip'}")
-        with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, data in sorted(contents.items()):
-                info = zipfile.ZipInfo(name, WHEN)
-                info.compress_type = zipfile.ZIP_DEFLATED
-                info.external_attr = (stat.S_IFREG | (0o755 if name in PROGRAMS else 0o644)) << 16
-                archive.writestr(info, data)
-        part.replace(target)
-    except OSError as error:
-        raise UsageError(f"{target} cannot be written: {error.strerror}") from None
-    finally:
-        part.unlink(missing_ok=True)

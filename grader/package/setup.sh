@@ -20,6 +20,9 @@ fi
 # With it submissions are locked in more firmly.
 command -v bwrap >/dev/null || apt-get install -y bubblewrap || true
 
+# Who unpacks a zip may drop what is a program; `ros2 run` starts these.
+grep -rlIZ '^#!' "$root/source/course/sim/prefix" | xargs -0 chmod +x
+
 "$python" -m venv "$root/venv"
 "$root/venv/bin/pip" install --disable-pip-version-check --constraint "$root/source/course/constraints.txt" "$root/source/course"
 chmod -R go-rwx "$root/source"  # submissions that run as another user do not read it

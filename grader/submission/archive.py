@@ -9,10 +9,12 @@ from __future__ import annotations
 import gzip
 import io
 import stat
+import struct
 import tarfile
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import PurePosixPath
 from typing import IO, BinaryIO, cast
 
@@ -32,12 +34,14 @@ CENTRAL_HEADER = b"PK\x01\x02"  # the signature each member of a zip has
 class Member:
     """A file in an archive or a folder: its claimed size [bytes], how to read it, and why that is refused, if so.
 
-    `read(most)` returns at most `most` bytes.
+    `read(most)` returns at most `most` bytes. `modified` is when the file claims to have been changed; without a time
+    zone it is the local time of an unknown place.
     """
 
     size: int
     read: Callable[[int], bytes]
     refusal: str | None = None
+    modified: datetime | None = None
 
 
 Tree = dict[str, Member]  # relative name with `/` between its parts -> member
@@ -99,7 +103,8 @@ def zip_members(stream: BinaryIO) -> Iterator[tuple[str, Member]]:
     archive = zipfile.ZipFile(stream)
     for info in archive.infolist():
         if not info.filename.endswith("/"):
-            yield _zip_name(info), Member(info.file_size, _zip_reader(archive, info), _zip_refusal(info))
+            reader, refusal = _zip_reader(archive, info), _zip_refusal(info)
+            yield _zip_name(info), Member(info.file_size, reader, refusal, _zip_time(info))
 
 
 def zip_folders(stream: BinaryIO) -> list[str]:
@@ -122,6 +127,23 @@ def _zip_name(info: zipfile.ZipInfo) -> str:
         except UnicodeError:
             pass
     return info.filename
+
+
+def _zip_time(info: zipfile.ZipInfo) -> datetime | None:
+    """Return when a member was changed: in UTC if the extended timestamp is there, else in somebody's local time.
+
+    Source: Info-ZIP, `proginfo/extrafld.txt`, "Extended Timestamp Extra Field" (0x5455).
+    """
+    extra = info.extra
+    while len(extra) >= 4:
+        kind, size = struct.unpack_from("<HH", extra)
+        field, extra = extra[4 : 4 + size], extra[4 + size :]
+        if kind == 0x5455 and len(field) >= 5 and field[0] & 1:
+            return datetime.fromtimestamp(struct.unpack_from("<i", field, 1)[0], UTC)
+    try:
+        return datetime(*info.date_time)
+    except ValueError:  # month 0, as archivers write that have no date
+        return None
 
 
 def _zip_refusal(info: zipfile.ZipInfo) -> str | None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
@@ -147,7 +148,11 @@ def folder_member(path: Path) -> Member | None:
     refusal = None
     if not stat.S_ISREG(status.st_mode):
         refusal = "is a link" if stat.S_ISLNK(status.st_mode) else "is a device or a pipe"
-    return Member(status.st_size, partial(_read, path, path.name, ()), refusal)
+    try:
+        modified = datetime.fromtimestamp(status.st_mtime, UTC)
+    except (ValueError, OverflowError, OSError):  # a year that Python does not know
+        modified = None
+    return Member(status.st_size, partial(_read, path, path.name, ()), refusal, modified)
 
 
 def is_junk(name: str) -> bool:

@@ -103,7 +103,7 @@ class ClassRun:
             running: dict[Future[Graded], tuple[Found, Result, str, int]] = {}
             stack.callback(lambda: [future.cancel() for future in running])
             while todo or running:
-                while todo and len(running) < slots + 1:  # one more than can run, so that no worker is idle
+                while todo and len(running) < slots() + 1:  # one more than can run, so that no worker is idle
                     each, attempt = todo.popleft()
                     result, job, anew = self._prepare(each, journal)
                     if job is None:
@@ -180,7 +180,7 @@ class ClassRun:
         check_jobs(level, jobs)
         return level, jobs
 
-    def _here(self, jobs: int | None, stack: ExitStack) -> tuple[Executor, int, Callable[[], bool]]:
+    def _here(self, jobs: int | None, stack: ExitStack) -> tuple[Executor, Callable[[], int], Callable[[], bool]]:
         """Return threads of this process, each of which waits for one grading."""
         level, jobs = self.level_and_jobs(jobs)  # once, so that all submissions get the same
         try:
@@ -192,7 +192,7 @@ class ClassRun:
         executor = ThreadPoolExecutor(jobs)
         stack.callback(executor.shutdown, cancel_futures=True)
         stack.enter_context(gradings_end_here())
-        return executor, jobs, lambda: False
+        return executor, lambda: jobs, lambda: False
 
     def _prepare(self, found: Found, journal: Journal) -> tuple[Result, Job | None, bool]:
         """Read a submission and return its result, and its job if it is to be graded.

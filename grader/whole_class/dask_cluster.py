@@ -1,20 +1,28 @@
 """Grading of a class on several machines: Dask's scheduler distributes the jobs to workers, which grade.
 
 Workers need the course installed, in the same version, but no shared files: submissions and recordings are sent as
-bytes. Used by `class_run.py` for `--dask`.
+bytes. Workers may end and join at any time. One that joins with other versions grades nothing: it says so instead of
+grading, and is dismissed. Used by `class_run.py` for `--dask`.
 """
 
 from __future__ import annotations
 
 import contextlib
+import sys
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
+from concurrent.futures import Executor, Future, InvalidStateError
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.whole_class.versions import versions
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 CONNECT = 15.0  # [s] to connect to a scheduler
 
@@ -22,10 +30,10 @@ CONNECT = 15.0  # [s] to connect to a scheduler
 @contextlib.contextmanager
 def dask_executor(
     address: str, check_slots: Callable[[int], None]
-) -> Iterator[tuple[Executor, int, Callable[[], bool]]]:
+) -> Iterator[tuple[Executor, Callable[[], int], Callable[[], bool]]]:
     """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`).
 
-    Yields an executor, how many gradings it runs at a time, and a function that returns whether the scheduler is lost.
+    Yields an executor and two functions: how many gradings it runs at a time now, and whether the scheduler is lost.
     `check_slots` gets the largest number of gradings that one machine runs at a time. Raises UsageError if Dask is not
     installed, the scheduler does not answer, or a worker has other versions.
     """
@@ -63,15 +71,104 @@ def dask_executor(
             raise UsageError(
                 f"the Dask scheduler at {shown(address)} has no workers; start some with dask worker"
             ) from None
-        threads = client.nthreads()
-        slots = sum(threads.values())
+        slots = _Slots(client, check_slots)
+        slots()
+        _check_versions(client.run(_worker_versions, on_error="return"))
+        # Not closed by its own context manager, which would wait for gradings that a lost scheduler never reports.
+        executor = _Checked(client, client.get_executor(pure=False, retries=0))
+        yield executor, slots, lambda: client.status not in ("running", "connecting")
+
+
+@dataclass
+class _Slots:
+    """How many gradings the workers run at a time. Raises UsageError if a machine has too many for its sandbox."""
+
+    client: Client
+    check: Callable[[int], None]
+    last: int = 1
+
+    def __call__(self) -> int:
+        try:
+            threads = self.client.nthreads()
+        except Exception:  # the scheduler is lost or starts again; who waits for the gradings will notice
+            return self.last
         machines: Counter[str] = Counter()
         for worker, number in threads.items():
             machines[worker.rpartition(":")[0]] += number
-        check_slots(max(machines.values()))
-        _check_versions(client.run(_worker_versions, on_error="return"))
-        # Not closed by its own context manager, which would wait for gradings that a lost scheduler never reports.
-        yield client.get_executor(pure=False, retries=0), slots, lambda: client.status not in ("running", "connecting")
+        self.check(max(machines.values(), default=1))
+        self.last = max(1, sum(threads.values()))
+        return self.last
+
+
+@dataclass(frozen=True)
+class _Unequal:
+    """What a worker answers instead of grading: its address and its versions."""
+
+    worker: str
+    versions: dict[str, str]
+
+
+class _Checked(Executor):
+    """Dask's executor, but a worker with other versions than here is dismissed, and another one does its work."""
+
+    def __init__(self, client: Client, inner: Executor) -> None:
+        self._client, self._inner = client, inner
+        self._lock = threading.Lock()
+        self._dismissed: set[str] = set()
+
+    def submit(self, function: Callable[..., Any], /, *arguments: Any, **named: Any) -> Future[Any]:
+        outer: Future[Any] = Future()
+        self._begin(outer, function, arguments)
+        return outer
+
+    def _begin(self, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+        inner = self._inner.submit(_if_equal, versions(), function, *arguments)
+        outer.add_done_callback(lambda done: inner.cancel() if done.cancelled() else None)
+
+        def ended(done: Future[Any]) -> None:
+            if outer.cancelled():
+                return
+            if done.cancelled():
+                outer.cancel()
+            elif (error := done.exception()) is not None:
+                _finish(outer, error)
+            elif isinstance(done.result(), _Unequal):  # in a thread of its own, because Dask calls this in its loop
+                again = (done.result(), outer, function, arguments)
+                threading.Thread(target=self._dismiss, args=again, daemon=True).start()
+            else:
+                _finish(outer, done.result())
+
+        inner.add_done_callback(ended)
+
+    def _dismiss(
+        self, unequal: _Unequal, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]
+    ) -> None:
+        """Say which worker does not fit, end it, and give its work to another one."""
+        with self._lock:
+            if unequal.worker not in self._dismissed:
+                self._dismissed.add(unequal.worker)
+                print(f"{_difference(unequal.worker, unequal.versions)}; it is dismissed", file=sys.stderr, flush=True)
+                with contextlib.suppress(Exception):  # it may be gone already
+                    self._client.retire_workers([unequal.worker], close_workers=True, remove=True)
+        try:
+            self._begin(outer, function, arguments)
+        except Exception as error:  # the scheduler is lost
+            _finish(outer, error)
+
+
+def _finish(future: Future[Any], result: Any) -> None:
+    """Set the result or the exception of a future, unless it was cancelled meanwhile."""
+    with contextlib.suppress(InvalidStateError):
+        future.set_exception(result) if isinstance(result, BaseException) else future.set_result(result)
+
+
+def _if_equal(wanted: dict[str, str], function: Callable[..., Any], *arguments: Any) -> Any:
+    """Call the function on a worker if its versions are those that are wanted."""
+    if (here := versions()) != wanted:
+        from distributed import get_worker
+
+        return _Unequal(get_worker().address, here)
+    return function(*arguments)
 
 
 def _worker_versions() -> dict[str, str]:
@@ -84,9 +181,11 @@ def _check_versions(of_workers: dict[str, object]) -> None:
     for worker, theirs in sorted(of_workers.items()):
         if not isinstance(theirs, dict):
             raise UsageError(f"the Dask worker {worker} cannot grade; is the course installed there? ({theirs})")
-        for package, version in ours.items():
-            if theirs.get(package) != version:
-                raise UsageError(
-                    f"the Dask worker {worker} has {package} {theirs.get(package)}, but here it is {version}; "
-                    "install the same on both"
-                )
+        if theirs != ours:
+            raise UsageError(f"{_difference(worker, theirs)}; install the same on both")
+
+
+def _difference(worker: str, theirs: dict[str, str]) -> str:
+    """Return the beginning of a sentence on a worker with other versions."""
+    package, version = next((each for each in versions().items() if theirs.get(each[0]) != each[1]), ("more", "none"))
+    return f"the Dask worker {worker} has {package} {theirs.get(package)}, but here it is {version}"

@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
@@ -40,7 +41,9 @@ LARGEST_METADATA = 4 << 20  # [bytes]
 # A platform's name for what a student handed in. `file` is the student's own name for it.
 MOODLE = re.compile(r"(?P<student>.+?)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)", re.DOTALL)
 CANVAS = re.compile(r"(?P<student>.+?)(?:_LATE)?_(?P<id>\d+)_\d{2,}_(?P<file>.+)", re.DOTALL)
+CANVAS_LATE = re.compile(r".+?_LATE_\d+_\d{2,}_.+", re.DOTALL)
 BLACKBOARD = re.compile(r".+_(?P<student>[^_]+)_attempt_(?P<when>\d{4}(?:-\d\d){5})(?:_(?P<file>.+)|\.txt)", re.DOTALL)
+BLACKBOARD_TIME = "%Y-%m-%d-%H-%M-%S"
 AGAIN = re.compile(r"-\d+(?=\.[^.]*$)")  # Canvas numbers what was handed in again: teleop_node-2.py
 
 
@@ -49,13 +52,16 @@ class Found:
     """What one student handed in. `student` is unique in the class; `source` is its name in the export.
 
     `read` returns the expected file and everything that belongs to it. It raises UsageError, or RefusedError, if there
-    is nothing to grade in it, and UnreadableError if the machine cannot read it.
+    is nothing to grade in it, and UnreadableError if the machine cannot read it. `submitted` is when, as the platform
+    says; `files` returns all files without reading them, and raises as `read` does.
     """
 
     student: str
     id: str
     source: str
     read: Callable[[], Selection]
+    submitted: datetime | None = None
+    files: Callable[[], Tree] = dict
 
 
 class _Owner(NamedTuple):
@@ -72,6 +78,13 @@ class _Group:
     source: str
     trees: list[Callable[[], Tree]]
     when: str = ""
+    submitted: datetime | None = None
+
+    def files(self) -> Tree:
+        tree: Tree = {}
+        for part in self.trees:
+            tree |= part()
+        return tree
 
 
 def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[list[Found], list[str]]:
@@ -84,21 +97,22 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     except OSError as error:
         raise UsageError(f"{path} cannot be read: {error.strerror or error}") from None
     top, left_out = _unwrapped(top, folders, exercise), []
-    names = _gradescope_names(top.pop(METADATA, None))
+    names, times = _gradescope(top.pop(METADATA, None))
     groups: dict[_Owner, _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
     for name, thing in sorted(top.items()):
         owner, file, when = _owner(name, folder=callable(thing), names=names)
         if name.startswith(".") and name.strip(".") and not owner.id:  # a hidden folder is nobody's, but is reported
-            left_out.append(_label(name))
+            left_out.append(readable(name))
             continue
         if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
-            left_out.append(_label(name))
+            left_out.append(readable(name))
             continue
         tree = thing if callable(thing) else partial(_alone, file, thing)
         group = groups.get(owner)
         if group is None or when > group.when:  # a later attempt replaces an earlier one
-            groups[owner] = _Group(name, [tree], when)
+            submitted = _blackboard_time(when) if when else times.get(name)
+            groups[owner] = _Group(name, [tree], when, submitted)
         elif when == group.when:
             group.trees.append(tree)
     if not groups:
@@ -110,25 +124,24 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
 
 def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
     """Give every student a unique, printable name."""
-    names = [_label(owner.student) for owner in groups]
+    names = [readable(owner.student) for owner in groups]
     labels = unique_names(names, [owner.id for owner in groups])
     found = []
     for label, (owner, group) in zip(labels, groups.items(), strict=True):
-        source = _label(group.source)
-        found.append(Found(label, owner.id, source, partial(_read, group, exercise, source)))
+        source = readable(group.source)
+        read = partial(_read, group, exercise, source)
+        found.append(Found(label, owner.id, source, read, group.submitted, group.files))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))
 
 
-def _label(name: str) -> str:
+def readable(name: str) -> str:
     """Return a name fit to be shown: foreign bytes and control codes replaced, not too long."""
     clean = name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
     return shown(clean, 120).strip() or "(no name)"
 
 
 def _read(group: _Group, exercise: Exercise, source: str) -> Selection:
-    tree: Tree = {}
-    for part in group.trees:
-        tree |= part()
+    tree = group.files()
     wanted = PurePosixPath(exercise.file)
     for name in [name for name in tree if AGAIN.search(name)]:
         if AGAIN.sub("", name) == wanted.name and wanted.name not in tree:
@@ -175,12 +188,12 @@ def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
             if _is_trace(first, folder=bool(rest)):
                 continue
             try:
-                plain_name(raw, _label(first))
+                plain_name(raw, readable(first))
             except RefusedError as error:
                 unsafe[first[:LONGEST_PART]] = error
                 continue
             if rest:
-                folders.setdefault(first, {})[plain_name(rest, _label(first))] = member
+                folders.setdefault(first, {})[plain_name(rest, readable(first))] = member
             else:
                 top[first] = member
     except OSError:
@@ -260,17 +273,27 @@ def _owner(name: str, *, folder: bool, names: dict[str, _Owner]) -> tuple[_Owner
     return _Owner(PurePosixPath(name.removesuffix(".gz")).stem.removesuffix(".tar")), name, ""
 
 
-def _gradescope_names(member: object) -> dict[str, _Owner]:
-    """Return the owner of each folder from a Gradescope export's metadata; empty without it."""
+def _blackboard_time(when: str) -> datetime | None:
+    try:
+        return datetime.strptime(when, BLACKBOARD_TIME)
+    except ValueError:
+        return None
+
+
+def _gradescope(member: object) -> tuple[dict[str, _Owner], dict[str, datetime]]:
+    """Return the owner of each folder, and when it was handed in, from a Gradescope export's metadata."""
     if not isinstance(member, Member):
-        return {}
+        return {}, {}
     try:
         raw: Any = yaml.safe_load(member.read(LARGEST_METADATA))
-        found = {}
+        found, times = {}, {}
         for folder, about in raw.items():
             people = about[":submitters"]
             student = " & ".join(str(person.get(":name") or person.get(":email")) for person in people)
-            found[str(folder)] = _Owner(student, ";".join(str(person.get(":sid") or "") for person in people))
-        return found
+            ids = ";".join(str(person.get(":sid") or person.get(":email") or "") for person in people)
+            found[str(folder)] = _Owner(student, ids)
+            if isinstance(created := about.get(":created_at"), datetime):
+                times[str(folder)] = created if created.tzinfo else created.replace(tzinfo=UTC)
+        return found, times
     except (yaml.YAMLError, UsageError, TypeError, KeyError, AttributeError, ValueError):
-        return {}
+        return {}, {}

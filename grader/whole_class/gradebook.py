@@ -13,9 +13,11 @@ import csv
 import io
 import os
 from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.printable import shown
 
@@ -23,6 +25,19 @@ GRADEBOOK = "gradebook.csv"
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\N{FULLWIDTH EQUALS SIGN}", "\N{FULLWIDTH PLUS SIGN}",
            "\N{FULLWIDTH HYPHEN-MINUS}", "\N{FULLWIDTH COMMERCIAL AT}")  # fmt: skip
 LONGEST_CELL = 2_000  # [characters]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of a gradebook, as it is read back. `score` is None for who could not be graded."""
+
+    student: str
+    id: str
+    submission: str
+    score: float | None
+    max_score: float
+    outcome: str
+    diagnosis: str
 
 
 def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
@@ -51,6 +66,34 @@ def cell(value: object) -> str:
         return f"{value:.10g}"
     text = shown(str(value), LONGEST_CELL)
     return f"'{text}" if str(value).startswith(FORMULA) or text.lstrip().startswith(FORMULA) else text
+
+
+def read_gradebook(folder: Path) -> list[Row]:
+    """Read the gradebook of a class. Raises UsageError if there is none, or it is not as it was written."""
+    path = folder / GRADEBOOK
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            lines = csv.DictReader(stream)
+            return [_row({name: _unguarded(value) for name, value in line.items()}) for line in lines]
+    except OSError as error:
+        raise UsageError(
+            f"{path} cannot be read: {error.strerror}; give the folder that course grade-all wrote (--out)"
+        ) from None
+    except (csv.Error, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise UsageError(
+            f"{path} is not as course grade-all wrote it ({shown(str(error), 80)}); the same command writes it again"
+        ) from None
+
+
+def _row(line: dict[str, str]) -> Row:
+    score = float(line["score"]) if line["score"] else None
+    texts = [line[name] for name in ("student", "id", "submission")]
+    return Row(*texts, score, float(line["max_score"]), line["outcome"], line["diagnosis"])
+
+
+def _unguarded(text: str) -> str:
+    """Return the text of a cell without the apostrophe that `cell` put before it."""
+    return text[1:] if text.startswith("'") and text[1:].lstrip().startswith(FORMULA) else text
 
 
 def write_gradebook(folder: Path, text: str) -> Path:
