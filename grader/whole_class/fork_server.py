@@ -53,6 +53,8 @@ MODULES = (
     "gz_course.grader.run.session",
     "numpy.ma",
     "numpy.random",
+    "pydantic.fields",  # for typer
+    "pydantic.type_adapter",
     "rclpy.action",
     "rerun.chunk",
     "rosidl_generator_py",
