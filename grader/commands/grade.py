@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import time
 from pathlib import Path
 from typing import Annotated
@@ -56,16 +57,23 @@ def command(
 ) -> None:
     """Grade one submission. Exit code 0: full marks, 1: less, 2: nothing to grade, 3: the grader's fault."""
     from gz_course.grader.process.command_line import blot_out
+    from gz_course.grader.process.many_imports import many_imports
     from gz_course.grader.run.sandbox import choose, enter_early
 
     blot_out()
     level = choose(sandbox, demand)
     enter_early(level)  # before any thread exists
 
-    from gz_course.grader.grade import PACES, grade, recording_path
-    from gz_course.grader.report.best import BEST, keep_best, runs_folder
-    from gz_course.grader.report.outputs import Outputs, check_writable
-    from gz_course.grader.report.terminal import print_report
+    with many_imports():
+        from gz_course.grader.grade import PACES, grade, recording_path
+        from gz_course.grader.report.best import BEST, keep_best, runs_folder
+        from gz_course.grader.report.outputs import Outputs, check_writable
+
+    def meanwhile() -> None:
+        """Import what shows the report, and make it ready, while the submission runs."""
+        with many_imports():
+            importlib.import_module("gz_course.grader.report.terminal")
+            outputs.prepare()
 
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{did_you_mean(pace, PACES, listing='known')}")
@@ -81,7 +89,20 @@ def command(
     )
     if own:
         check_writable(out / BEST)
-    report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
+    report = grade(
+        chosen,
+        submission,
+        out,
+        seed=seed,
+        pace=pace,
+        trials=asked,
+        sandbox=level,
+        started=STARTED,
+        meanwhile=meanwhile,
+    )
+
+    from gz_course.grader.report.terminal import print_report
+
     try:
         print_report(report, page=beside)
     finally:  # also if the terminal has been closed

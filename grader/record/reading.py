@@ -54,6 +54,19 @@ class Line:
     level: str
 
 
+def _flat(column: Any) -> Any:
+    """Return the values of an Arrow column of lists, one after another.
+
+    `flatten` does the same, but imports all of Arrow's functions, which takes longer than reading a recording.
+    """
+    if column.null_count:
+        return column.flatten()
+    if (size := getattr(column.type, "list_size", None)) is not None:
+        return column.values.slice(column.offset * size, len(column) * size)
+    first, last = column.offsets[0].as_py(), column.offsets[-1].as_py()
+    return column.values.slice(first, last - first)
+
+
 class Recording:
     """One recorded run. Raises UsageError if the file is not a readable recording."""
 
@@ -83,7 +96,7 @@ class Recording:
             return
         if "sim_time" not in names:
             return
-        times = batch.column("sim_time").cast("int64").to_numpy(zero_copy_only=False)
+        times = batch.column("sim_time").to_numpy(zero_copy_only=False).astype(np.int64)
         for name in components:
             key = (chunk.entity_path.lstrip("/"), name)
             self._rows.setdefault(key, []).append((times, batch.column(name)))
@@ -103,7 +116,7 @@ class Recording:
         return sorted(
             entity
             for (entity, component), parts in self._rows.items()
-            if component == "Scalars:scalars" and all(len(column.flatten()) == len(times) for times, column in parts)
+            if component == "Scalars:scalars" and all(len(_flat(column)) == len(times) for times, column in parts)
         )
 
     def has(self, name: str) -> bool:
@@ -115,7 +128,7 @@ class Recording:
         if not parts:
             return Signal(np.empty(0, dtype=np.int64), np.empty(0))
         times = np.concatenate([t for t, _ in parts])
-        values = np.concatenate([column.flatten().to_numpy(zero_copy_only=False) for _, column in parts])
+        values = np.concatenate([_flat(column).to_numpy(zero_copy_only=False) for _, column in parts])
         if len(values) != len(times):
             raise UsageError(f"{name} holds lists, not single numbers{did_you_mean(name, self.signals())}")
         order = np.argsort(times, kind="stable")
@@ -138,8 +151,8 @@ class Recording:
         for (times, text), (_, level) in zip(texts, levels, strict=True):
             out += zip(
                 times.tolist(),
-                text.flatten().to_pylist(),
-                level.flatten().to_pylist(),
+                _flat(text).to_pylist(),
+                _flat(level).to_pylist(),
                 strict=True,
             )
         out.sort(key=lambda row: row[0])
@@ -168,7 +181,7 @@ class Recording:
                 rows = [(np.zeros(1, dtype=np.int64), self._static[entity][component])]
             if not rows:
                 return None
-            values = [column.flatten().flatten().to_numpy(zero_copy_only=False) for _, column in rows]
+            values = [_flat(_flat(column)).to_numpy(zero_copy_only=False) for _, column in rows]
             parts.append((np.concatenate([t for t, _ in rows]), np.concatenate(values).reshape(-1, width)))
         (times, positions), (_, quaternions) = parts
         order = np.argsort(times, kind="stable")
@@ -177,12 +190,12 @@ class Recording:
     def points_at(self, entity: str, time_ns: int) -> np.ndarray:
         """Return the last point cloud (n, 3) [m] of an entity at a time [ns]; empty before the first."""
         row = self._last_row(entity, "Points3D:positions", time_ns)
-        return np.empty((0, 3)) if row is None else np.asarray(row.values.flatten()).reshape(-1, 3)
+        return np.empty((0, 3)) if row is None else np.asarray(_flat(row.values)).reshape(-1, 3)
 
     def picture_at(self, entity: str, time_ns: int) -> bytes:
         """Return the last encoded image of an entity at a time [ns]; empty before the first."""
         row = self._last_row(entity, "EncodedImage:blob", time_ns)
-        return b"" if row is None else bytes(np.asarray(row.values.flatten(), dtype=np.uint8))
+        return b"" if row is None else bytes(np.asarray(_flat(row.values), dtype=np.uint8))
 
     def pictures(self, entity: str) -> tuple[np.ndarray, list[bytes]]:
         """Return the encoded images of an entity: times [ns] and one file each."""

@@ -17,9 +17,11 @@ from gz_course.grader.exercise import MANIFEST, Exercise
 from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
+from gz_course.grader.process.many_imports import many_imports
 from gz_course.grader.process.temporary_folder import sweep
 from gz_course.grader.run.agent.course_agent.endpoint_description import KEPT
 from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE, SIMULATED_CLOCKS
+from gz_course.grader.run.agent.course_agent.import_hooks import leave_out_generator
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
@@ -90,12 +92,15 @@ def run(
         stack.callback(processes.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 
-        from gz_course.grader.record.recorder import Recorder
-        from gz_course.grader.run.properties import write_properties
-        from gz_course.sim.ros_gz_bridge.entry import BridgeError
+        with many_imports():
+            leave_out_generator()
+            from gz_course.grader.record.recorder import Recorder
+            from gz_course.grader.run.properties import write_properties
+            from gz_course.sim.ros_gz_bridge.entry import BridgeError
 
+            make_loop = kind.run_loop()
         try:
-            loop = kind.run_loop()(exercise, trial, plan, domain.id, processes, pace, stack)
+            loop = make_loop(exercise, trial, plan, domain.id, processes, pace, stack)
         except BridgeError as error:
             if not kind.brings_bridge:
                 raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None

@@ -94,8 +94,10 @@ Job = Callable[[Heartbeat], Any]
 class Supervised:
     """Runs jobs in a child process. Each is a picklable call with a `Heartbeat`; one simulates `duration` [s]."""
 
-    def __init__(self, jobs: Sequence[Job], duration: float) -> None:
+    def __init__(self, jobs: Sequence[Job], duration: float, meanwhile: Callable[[], object] = lambda: None) -> None:
+        """Prepare to run jobs; `meanwhile` is called once they have begun, and takes less than a second."""
         self._jobs = list(jobs)
+        self._meanwhile = meanwhile
         self._duration = duration
         self._before: set[int] = set()
         self._status: int | None = None  # that of the child, once it was waited for
@@ -117,6 +119,7 @@ class Supervised:
             os.close(writing)
             process = os.pidfd_open(pid)
             try:
+                self._meanwhile()
                 return self._follow(pid, process, reading)
             finally:
                 self._end(pid, process)
@@ -187,7 +190,7 @@ class Supervised:
 
 def _start(jobs: list[Job], memory: int, writing: int) -> int:
     """Start a child that does the jobs: a fork of this process, or a new Python where threads forbid that."""
-    if threading.active_count() == 1 and not WITH_THREADS & sys.modules.keys():
+    if _may_fork():
         sys.stdout.flush()
         sys.stderr.flush()
         pid = os.fork()
@@ -208,6 +211,12 @@ def _start(jobs: list[Job], memory: int, writing: int) -> int:
         started.stdin.write(pickle.dumps(jobs))
     started.returncode = 0  # it is waited for by its number
     return started.pid
+
+
+def _may_fork() -> bool:
+    if len(os.listdir("/proc/self/task")) == 1:  # noqa: PTH208
+        return True  # a fork itself, which has none of the threads of its modules
+    return threading.active_count() == 1 and not WITH_THREADS & sys.modules.keys()
 
 
 def main() -> None:

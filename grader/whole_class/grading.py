@@ -12,7 +12,6 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -21,10 +20,12 @@ from typing import Any
 
 import psutil
 
+from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import bundle
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.report.format import formats
+from gz_course.grader.whole_class.forked_process import ForkedProcess, ForkServer
 
 PR_SET_CHILD_SUBREAPER = 36
 LARGEST_FILE = 256 << 20  # [bytes] of a recording or report that is returned
@@ -71,34 +72,40 @@ class _Running:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._processes: set[subprocess.Popen[bytes]] = set()
+        self._server = ForkServer()
+        self._processes: set[ForkedProcess] = set()
         self.stopped = False
 
-    def start(self, command: list[str], **options: Any) -> subprocess.Popen[bytes]:
+    def start(self, folder: Path, arguments: list[str], environment: dict[str, str]) -> ForkedProcess:
         with self._lock:
             if self.stopped:
                 raise InterruptedError("the class was interrupted")
-            process = subprocess.Popen(command, start_new_session=True, **options)
+            process = self._server.start(folder, arguments, environment)
             self._processes.add(process)
             return process
 
-    def ended(self, process: subprocess.Popen[bytes]) -> None:
+    def ended(self, process: ForkedProcess) -> None:
         """Forget a process, and kill the orphans it left in other sessions, which are now children of this process."""
-        with self._lock:
+        children = psutil.Process().children()
+        with self._lock:  # whoever was a child before is known now
             self._processes.discard(process)
-            running = {each.pid for each in self._processes}
-        for child in psutil.Process().children():
+            running = {self._server.pid, *(each.pid for each in self._processes)}
+        for child in children:
             with contextlib.suppress(psutil.Error, OSError):
                 if child.pid not in running and os.getsid(child.pid) != os.getsid(0) and child.pid != process.pid:
                     child.kill()
                     child.wait(GRACE)
 
     def begin(self) -> None:
-        self.stopped = False
+        with self._lock:
+            self._server.close()
+            self._server, self.stopped = ForkServer(), False
 
     def stop(self) -> None:
+        self.stopped = True
+        self._server.stop()
         with self._lock:
-            self.stopped = True
+            self._server.close()
             processes = list(self._processes)
         for process in processes:
             end(process)
@@ -128,6 +135,8 @@ def grade_one(setup: Setup, job: Job) -> Graded:
         return Graded(None, fault=f"no temporary folder: {error.strerror}")
     try:
         return _grade(setup, job, temporary.path)
+    except InfrastructureError as error:
+        return Graded(None, fault=str(error))
     except OSError as error:
         return Graded(None, fault=f"{type(error).__name__}: {error}")
     finally:
@@ -141,27 +150,23 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
     submission = folder / "submission"
     # A single file may have any name; a folder is searched for the expected one.
     given = submission / job.main if len(job.files) == 1 else submission
-    command = [
-        sys.executable,
-        "-P",
-        "-m",
-        "gz_course.grader.whole_class.start",
-        str(os.getpid()),
+    arguments = [
         "grade",
         setup.exercise,
+        "--submission",
+        str(given),
+        "--out",
+        RECORDINGS,
+        "--json",
+        REPORT,
+        "--no-page",
     ]
-    command += ["--submission", str(given), "--out", RECORDINGS, "--json", REPORT, "--no-page", *setup.options]
+    arguments += setup.options
     for name in setup.reports:
-        command += [f"--{name}", formats()[name].file]
+        arguments += [f"--{name}", formats()[name].file]
+    environment = os.environ | {"COURSE_ROOT": str(folder / "course"), "TMPDIR": str(folder / "tmp")}
     with (folder / "stderr").open("w+b") as errors:
-        process = RUNNING.start(
-            command,
-            cwd=folder,
-            env=os.environ | {"COURSE_ROOT": str(folder / "course"), "TMPDIR": str(folder / "tmp")},
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=errors,
-        )
+        process = RUNNING.start(folder, arguments, environment)
         try:
             late = False
             try:
@@ -173,7 +178,7 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
             RUNNING.ended(process)
         if late:
             return Graded(None, fault=f"the grading was not done after {setup.deadline:g} s")
-        errors.seek(max(0, errors.tell() - ERROR_TAIL))
+        errors.seek(max(0, errors.seek(0, os.SEEK_END) - ERROR_TAIL))
         said = shown(errors.read().decode(errors="replace").strip().rpartition("\n")[2])
     if process.returncode not in (0, 1):
         how = f"signal {-process.returncode}" if process.returncode < 0 else f"exit code {process.returncode}"
@@ -181,7 +186,7 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
     return _bring_back(setup, job, folder)
 
 
-def end(process: subprocess.Popen[bytes]) -> None:
+def end(process: ForkedProcess) -> None:
     """End a grading and its process group: SIGINT, SIGTERM, SIGKILL. One that has ended by itself is only reaped."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
         if process.poll() is not None:

@@ -98,18 +98,3 @@ def test_when_its_worker_is_killed_a_grading_ends_at_once(grade_one, endless, tm
     (left,) = (tmp_path / "tmp").iterdir()
     assert came_out(grade_one(endless, "--pace", "sideways"))[0] is None
     assert not left.exists(), "the next worker removes what this one could not"
-
-
-def test_all_gradings_end_with_the_block(tmp_path):
-    program = """
-from gz_course.grader.whole_class.grading import RUNNING, gradings_end_here
-with gradings_end_here():
-    process = RUNNING.start(["sleep", "600"])  # a Python that is interrupted while it starts has another exit code
-print(process.returncode)
-try:
-    RUNNING.start(["true"])
-except InterruptedError:
-    print("no more")
-"""
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=600)
-    assert done.stdout.split("\n")[1:2] == ["no more"] and int(done.stdout.split("\n")[0]) < 0, done.stderr
