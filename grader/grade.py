@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -50,11 +50,13 @@ def grade(
     trials: tuple[Trial, ...] | None = None,
     sandbox: str = "auto",
     started: float | None = None,
+    meanwhile: Callable[[], object] = lambda: None,
 ) -> Report:
     """Grade the submission at a path (None: the student's own copy) and leave its recordings in the folder `out`.
 
     `trials` are those of the exercise if None; `seed` is added to the seed of each. `sandbox` is a
-    level of `grader.run.sandbox`. `started` is the `time.monotonic()` [s] at which the command began, for the report.
+    level of `grader.run.sandbox`. `started` is the `time.monotonic()` [s] at which the command began, for the report;
+    `meanwhile` is called once while a run goes on in another process.
     Raises UsageError for a submission that cannot be read, and if another grader writes into `out` at this moment; a
     submission that is wrong is graded, not raised.
     """
@@ -63,7 +65,7 @@ def grade(
     asked = numbered(trials or exercise.trials, seed)
     with sole_writer(out, exercise.name):
         runs = [_TrialRun(exercise, submission, trial, pace, out, sandbox) for trial in asked]
-        results = _run_supervised(runs) if submission.fault is None else [each(Heartbeat()) for each in runs]
+        results = _run_supervised(runs, meanwhile) if submission.fault is None else [each(Heartbeat()) for each in runs]
     facts = [each.host for each in results if each.host is not None]
     host = HostFacts(
         "; ".join(dict.fromkeys(each.sandbox for each in facts)),
@@ -92,13 +94,13 @@ class _TrialRun:
         )
 
 
-def _run_supervised(runs: Sequence[_TrialRun]) -> list[TrialResult]:
+def _run_supervised(runs: Sequence[_TrialRun], meanwhile: Callable[[], object]) -> list[TrialResult]:
     """Run trials in a supervised child process; the recording of one that had to be ended holds only the reason."""
     results: list[TrialResult] = []
     while len(results) < len(runs):
         left = runs[len(results) :]
         try:
-            done, broken = Supervised(left, left[0].exercise.duration).run()
+            done, broken = Supervised(left, left[0].exercise.duration, meanwhile).run()
         except BaseException:
             for each in left:  # a child that was killed leaves the recording it had begun
                 path = recording_path(each.exercise, each.trial, each.out)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import time
 from pathlib import Path
 from typing import Annotated
@@ -67,7 +68,12 @@ def command(
         from gz_course.grader.grade import PACES, grade, recording_path
         from gz_course.grader.report.best import BEST, keep_best, runs_folder
         from gz_course.grader.report.outputs import Outputs, check_writable
-        from gz_course.grader.report.terminal import print_report
+
+    def meanwhile() -> None:
+        """Import what shows the report, and make it ready, while the submission runs."""
+        with many_imports():
+            importlib.import_module("gz_course.grader.report.terminal")
+            outputs.prepare()
 
     if pace not in PACES:
         raise UsageError(f"there is no pace {pace!r}{did_you_mean(pace, PACES, listing='known')}")
@@ -83,7 +89,20 @@ def command(
     )
     if own:
         check_writable(out / BEST)
-    report = grade(chosen, submission, out, seed=seed, pace=pace, trials=asked, sandbox=level, started=STARTED)
+    report = grade(
+        chosen,
+        submission,
+        out,
+        seed=seed,
+        pace=pace,
+        trials=asked,
+        sandbox=level,
+        started=STARTED,
+        meanwhile=meanwhile,
+    )
+
+    from gz_course.grader.report.terminal import print_report
+
     try:
         print_report(report, page=beside)
     finally:  # also if the terminal has been closed

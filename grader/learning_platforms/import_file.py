@@ -10,7 +10,7 @@
 Who is not in the file keeps the grade that the platform has. Text is guarded as in the gradebook; feedback is escaped,
 because Moodle reads it as HTML.
 
-Sources: Canvas, `lib/gradebook_importer.rb`; Moodle, `grade/import/csv/classes/load_data.php` and
+Source: Canvas, `lib/gradebook_importer.rb`; Moodle, `grade/import/csv/classes/load_data.php` and
 `mod/assign/feedback/offline/locallib.php`; MoodleDocs, "Grade import".
 """
 

@@ -4,7 +4,7 @@ Three exports are understood. Canvas: the gradebook (`Student`, `ID`, ...). Mood
 assignment (`Identifier`, `Grade`, ...), or any other list with an email address, an ID number or a username, such as
 the grader export.
 
-Sources: Canvas, `lib/gradebook_exporter.rb` and `lib/gradebook_importer.rb` (columns and rows of the gradebook CSV);
+Source: Canvas, `lib/gradebook_exporter.rb` and `lib/gradebook_importer.rb` (columns and rows of the gradebook CSV);
 Moodle, `mod/assign/feedback/offline/importgradeslib.php` (worksheet) and MoodleDocs, "Grade import".
 """
 

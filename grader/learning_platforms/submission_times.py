@@ -3,7 +3,7 @@
 These are claims: a commit and a file have the time that their author's computer gave them. No program of a submission
 runs for this, and no configuration of its repository is read.
 
-Sources: git-cat-file(1) and git(1) (GIT_OBJECT_DIRECTORY); gitrepository-layout(5).
+Source: git-cat-file(1) and git(1) (GIT_OBJECT_DIRECTORY); gitrepository-layout(5).
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ class Format:
     `as_text` returns the bytes of the file if it is no text; it raises UsageError if a recording it needs cannot be
     read. `file` is the name of the report in a student's folder of a class. `help` describes the option of `course
     grade` and `course score`, `class_help` that of `course grade-all` (None: no such option). `before` names the
-    formats whose options and reports come later.
+    formats whose options and reports come later; `prepare` does what can be done before there is a report.
     """
 
     as_text: Callable[[Report], str | bytes]
@@ -30,6 +30,7 @@ class Format:
     help: str
     class_help: str | None = None
     before: tuple[str, ...] = ()
+    prepare: Callable[[], None] = lambda: None
 
 
 @functools.cache

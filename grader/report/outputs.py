@@ -41,6 +41,11 @@ class Outputs:
         for path in (*others, *self.files.values()):
             check_writable(path)
 
+    def prepare(self) -> None:
+        """Do what can be done before there is a report."""
+        for name in self.files:
+            formats()[name].prepare()
+
     def write(self, report: Report) -> None:
         """Write every report that was asked for. Raises UsageError if one cannot be written."""
         for name, path in self.files.items():

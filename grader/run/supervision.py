@@ -94,8 +94,10 @@ Job = Callable[[Heartbeat], Any]
 class Supervised:
     """Runs jobs in a child process. Each is a picklable call with a `Heartbeat`; one simulates `duration` [s]."""
 
-    def __init__(self, jobs: Sequence[Job], duration: float) -> None:
+    def __init__(self, jobs: Sequence[Job], duration: float, meanwhile: Callable[[], object] = lambda: None) -> None:
+        """Prepare to run jobs; `meanwhile` is called once they have begun, and takes less than a second."""
         self._jobs = list(jobs)
+        self._meanwhile = meanwhile
         self._duration = duration
         self._before: set[int] = set()
         self._status: int | None = None  # that of the child, once it was waited for
@@ -117,6 +119,7 @@ class Supervised:
             os.close(writing)
             process = os.pidfd_open(pid)
             try:
+                self._meanwhile()
                 return self._follow(pid, process, reading)
             finally:
                 self._end(pid, process)

@@ -59,8 +59,8 @@ def as_csv(submitted: Sequence[Submitted], similar: Similar) -> str:
     writer.writerow(["similarity", "student_a", "student_b", "tokens", "lines_a", "lines_b"])
     for members in similar.groups:
         first = submitted[members[0]]
-        for other in members[1:]:
-            row = ["1", first.student, submitted[other].student, str(len(first.text.symbols)), "all", "all"]
+        for number in members[1:]:
+            row = ["1", first.student, submitted[number].student, str(len(first.text.symbols)), "all", "all"]
             writer.writerow([cell(each) for each in row])
     for pair in similar.pairs[:MOST_PAIRS]:
         one, other = submitted[pair.one], submitted[pair.other]
@@ -99,7 +99,7 @@ def _shown_pair(submitted: Sequence[Submitted], pair: Pair, with_text: bool) -> 
 
 
 def _matching_text(each: Submitted, lines: frozenset[tuple[int, int]]) -> list[str]:
-    found = []
+    found: list[str] = []
     for file in sorted({file for file, _ in lines}):
         content = each.files[each.text.names[file]].decode("utf-8", "replace").split("\n")
         for line in sorted(number for where, number in lines if where == file)[: MOST_LINES - len(found)]:

@@ -49,7 +49,8 @@ def read_text(files: Mapping[str, bytes], main: str = "") -> Text:
     symbols: list[int] = []
     lines: list[int] = []
     numbers: list[int] = []
-    names, left_out = [], []
+    names: list[str] = []
+    left_out: list[str] = []
     for name, data in sorted(files.items()):
         lexer = LEXERS.get(PurePosixPath(name).suffix, "python" if name == main else "")
         if not lexer:

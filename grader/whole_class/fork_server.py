@@ -53,6 +53,8 @@ MODULES = (
     "gz_course.grader.run.session",
     "numpy.ma",
     "numpy.random",
+    "pydantic.fields",  # for typer
+    "pydantic.type_adapter",
     "rclpy.action",
     "rerun.chunk",
     "rosidl_generator_py",
@@ -101,6 +103,7 @@ def load() -> None:
 
 
 def _import_all() -> None:
+    from gz_course.grader.report.format import formats
     from gz_course.sim.gz import msgs as gz_messages
     from gz_course.sim.gz.msgs import registry
 
@@ -112,6 +115,8 @@ def _import_all() -> None:
             importlib.import_module(found.name)
     for path in registry.PROTO_FOLDER.glob("*.proto"):
         importlib.import_module(f"{gz_messages.__name__}.{path.stem}_pb2")
+    for each in formats().values():
+        each.prepare()
     for name, module in list(sys.modules.items()):
         if name.endswith((".msg", ".srv")):  # their compiled parts are loaded as late as their classes are used
             load_compiled(module)

@@ -129,9 +129,8 @@ def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
     found = []
     for label, (owner, group) in zip(labels, groups.items(), strict=True):
         source = readable(group.source)
-        found.append(
-            Found(label, owner.id, source, partial(_read, group, exercise, source), group.submitted, group.files)
-        )
+        read = partial(_read, group, exercise, source)
+        found.append(Found(label, owner.id, source, read, group.submitted, group.files))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))
 
 

@@ -11,10 +11,17 @@ def as_html(report: Report) -> str:
     return as_html(report)
 
 
+def prepare() -> None:
+    from gz_course.grader.report.html.page import compiled
+
+    compiled("page.html.jinja")
+
+
 FORMAT = Format(
     as_text=as_html,
     file="report.html",
     help="Write the report as one HTML page, with plots.",
     class_help="Also write each report as a page.",
     before=("gradescope",),
+    prepare=prepare,
 )

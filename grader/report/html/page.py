@@ -7,6 +7,7 @@ of a recording that is scored again differs from the first only in the facts abo
 from __future__ import annotations
 
 import base64
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -99,7 +100,7 @@ def as_html(report: Report) -> str:
     recording, drawn = recordings[shown_trial.name], maps[shown_trial.name]
     moments = _moments(shown_trial, recording)
     several = len(trials) > 1
-    text = _template("page.html.jinja").render(
+    text = compiled("page.html.jinja").render(
         **_run(drawn, recording, moments),
         report=report,
         submission=Path(report.submission).name,
@@ -131,7 +132,7 @@ def replay_of(report: Report) -> tuple[str, str, Markup]:
     drawn = Map(recording, _robot(recording))
     run = _run(drawn, recording, _moments(trial, recording))
     style = Markup((FOLDER / "page.css").read_text())
-    return str(storable(_template("replay.html.jinja").render(**run, style=style))), run["path"], run["drawing"]
+    return str(storable(compiled("replay.html.jinja").render(**run, style=style))), run["path"], run["drawing"]
 
 
 def _run(drawn: Map, recording: Recording, moments: list[tuple[float, str]]) -> dict[str, Any]:
@@ -149,7 +150,9 @@ def _run(drawn: Map, recording: Recording, moments: list[tuple[float, str]]) -> 
     }
 
 
-def _template(name: str) -> Any:
+@functools.cache
+def compiled(name: str) -> Any:
+    """Return a template of this folder, ready to be filled."""
     environment = Environment(
         loader=FileSystemLoader(FOLDER),
         autoescape=True,

@@ -93,19 +93,32 @@ def descendants(root: int, apart: frozenset[int] = frozenset()) -> list[int]:
 
 
 def _children(pid: int) -> list[int]:
+    # Read often, so without `pathlib`, which takes longer than Linux does.
     found: list[int] = []
     with contextlib.suppress(OSError):
-        for task in Path(f"/proc/{pid}/task").iterdir():
+        for task in os.listdir(f"/proc/{pid}/task"):  # noqa: PTH208
             with contextlib.suppress(OSError):
-                found += map(int, (task / "children").read_text().split())
+                found += map(int, _read(f"/proc/{pid}/task/{task}/children").split())
     return found
 
 
 def _is_zombie(pid: int) -> bool:
     try:
-        return Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()[0] in (b"Z", b"X")
+        return _read(f"/proc/{pid}/stat").rpartition(b")")[2].split()[0] in (b"Z", b"X")
     except OSError:
         return True
+
+
+def _read(path: str) -> bytes:
+    """Return what a file in /proc says."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        parts = []
+        while part := os.read(handle, 1 << 16):
+            parts.append(part)
+        return b"".join(parts)
+    finally:
+        os.close(handle)
 
 
 def _resident(pid: int) -> int:

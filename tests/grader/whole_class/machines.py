@@ -40,19 +40,20 @@ class Network:
         try:
             for name in self.NAMES:
                 self._ip("netns", "add", self.namespace(name))
-                self._ip("-n", self.namespace(name), "link", "set", "lo", "up")
-            hub = self.namespace("hub")
-            self._ip("-n", hub, "link", "add", "bridge", "type", "bridge")
-            self._ip("-n", hub, "addr", "add", f"{self.address('hub')}/24", "dev", "bridge")
-            self._ip("-n", hub, "link", "set", "bridge", "up")
-            for name in self.NAMES[1:]:
-                here = self.namespace(name)
-                self._ip("-n", hub, "link", "add", name, "type", "veth", "peer", "name", "eth0", "netns", here)
-                self._ip("-n", hub, "link", "set", name, "master", "bridge", "up")
-                self._ip("-n", here, "addr", "add", f"{self.address(name)}/24", "dev", "eth0")
-                self._ip("-n", here, "link", "set", "eth0", "up")
         except subprocess.CalledProcessError as error:
             pytest.skip(f"no network namespaces here: {error.stderr.decode().strip()}")
+        for name in self.NAMES:
+            self._ip("-n", self.namespace(name), "link", "set", "dev", "lo", "up")
+        hub = self.namespace("hub")
+        self._ip("-n", hub, "link", "add", "name", "bridge", "type", "bridge")
+        self._ip("-n", hub, "addr", "add", f"{self.address('hub')}/24", "dev", "bridge")
+        self._ip("-n", hub, "link", "set", "dev", "bridge", "up")
+        for name in self.NAMES[1:]:
+            here = self.namespace(name)
+            self._ip("-n", hub, "link", "add", "name", name, "type", "veth", "peer", "name", "eth0", "netns", here)
+            self._ip("-n", hub, "link", "set", "dev", name, "master", "bridge", "up")
+            self._ip("-n", here, "addr", "add", f"{self.address(name)}/24", "dev", "eth0")
+            self._ip("-n", here, "link", "set", "dev", "eth0", "up")
 
     @staticmethod
     def _ip(*words):
