@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.whole_class.found import Found, find_submissions, readable
+from gz_course.grader.whole_class.found import Found, find_submissions
 
 GIT = 10.0  # [s] for one call of git
 LARGEST_REF, LARGEST_REFS = 4096, 4 << 20  # [bytes]
@@ -45,7 +45,7 @@ def submission_times(path: Path, exercise: Exercise) -> dict[str, Submitted]:
         folders = _folders(path) if path.is_dir() else {}
         ours = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="course-git-")))
         for each in submissions:
-            if submitted := _submitted(each, folders.get(each.source), ours):
+            if submitted := _submitted(each, folders.get(each.entry), ours):
                 found[each.source] = submitted
     return found
 
@@ -66,14 +66,14 @@ def _submitted(found: Found, folder: Path | None, ours: Path) -> Submitted | Non
 
 
 def _folders(path: Path) -> dict[str, Path]:
-    """Return name in the gradebook -> folder, for the folders in `path`, or in the only folder there."""
+    """Return name -> folder, for the folders in `path`, or in the only folder there."""
     try:
         top = [each for each in path.iterdir() if each.is_dir() and not each.is_symlink()]
         if len(top) == 1:
             top += [each for each in top[0].iterdir() if each.is_dir() and not each.is_symlink()]
     except OSError:
         return {}
-    return {readable(each.name): each for each in top}
+    return {each.name: each for each in top}
 
 
 def commit_time(git: Path, ours: Path) -> datetime | None:

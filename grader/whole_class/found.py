@@ -52,7 +52,8 @@ class Found:
 
     `read` returns the expected file and everything that belongs to it. It raises UsageError, or RefusedError, if there
     is nothing to grade in it, and UnreadableError if the machine cannot read it. `submitted` is when, as the platform
-    says; `files` returns all files without reading them, and raises as `read` does.
+    says; `files` returns all files without reading them, and raises as `read` does. `entry` is the name that `source`
+    shows, as it is in the folder or zip.
     """
 
     student: str
@@ -61,6 +62,7 @@ class Found:
     read: Callable[[], Selection]
     submitted: datetime | None = None
     files: Callable[[], Tree] = dict
+    entry: str = ""
 
 
 class _Owner(NamedTuple):
@@ -101,11 +103,11 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     suffixes = find_kind(exercise.kind).suffixes
     for name, thing in sorted(top.items()):
         if name.startswith(".") and name.strip("."):  # a hidden folder belongs to nobody, but must be reported
-            left_out.append(readable(name))
+            left_out.append(_label(name))
             continue
         owner, file, when = _owner(name, folder=callable(thing), names=names)
         if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
-            left_out.append(readable(name))
+            left_out.append(_label(name))
             continue
         tree = thing if callable(thing) else partial(_alone, file, thing)
         group = groups.get(owner)
@@ -123,7 +125,7 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
 
 def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
     """Give every student a unique, printable name."""
-    names = [readable(owner.student) for owner in groups]
+    names = [_label(owner.student) for owner in groups]
     longer = [
         f"{name} ({owner.id})" if names.count(name) > 1 and owner.id else name
         for name, owner in zip(names, groups, strict=True)
@@ -135,13 +137,13 @@ def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
         while label.casefold() in taken or (label == name and longer.count(name) > 1):
             label, number = f"{name} [{number}]", number + 1
         taken.add(label.casefold())
-        source = readable(group.source)
+        source = _label(group.source)
         read = partial(_read, group, exercise, source)
-        found.append(Found(label, owner.id, source, read, group.submitted, group.files))
+        found.append(Found(label, owner.id, source, read, group.submitted, group.files, group.source))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))
 
 
-def readable(name: str) -> str:
+def _label(name: str) -> str:
     """Return a name fit to be shown: foreign bytes and control codes replaced, not too long."""
     clean = name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
     return shown(clean, 120).strip() or "(no name)"
@@ -195,12 +197,12 @@ def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
             if _is_trace(first, folder=bool(rest)):
                 continue
             try:
-                plain_name(raw, readable(first))
+                plain_name(raw, _label(first))
             except RefusedError as error:
                 unsafe[first[:LONGEST_PART]] = error
                 continue
             if rest:
-                folders.setdefault(first, {})[plain_name(rest, readable(first))] = member
+                folders.setdefault(first, {})[plain_name(rest, _label(first))] = member
             else:
                 top[first] = member
     except OSError:
