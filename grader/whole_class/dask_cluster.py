@@ -100,12 +100,19 @@ class _Slots:
         return self.last
 
 
-@dataclass(frozen=True)
-class _Unequal:
-    """What a worker answers instead of grading: its address and its versions."""
+class _UnequalError(Exception):
+    """What a worker raises instead of grading: its address and its versions.
 
-    worker: str
-    versions: dict[str, str]
+    It is no result, because a worker that holds results cannot be dismissed before another one has taken them.
+    """
+
+    @property
+    def worker(self) -> str:
+        return str(self.args[0])
+
+    @property
+    def versions(self) -> dict[str, str]:
+        return dict(self.args[1])
 
 
 class _Checked(Executor):
@@ -130,18 +137,18 @@ class _Checked(Executor):
                 return
             if done.cancelled():
                 outer.cancel()
-            elif (error := done.exception()) is not None:
-                _finish(outer, error)
-            elif isinstance(done.result(), _Unequal):  # in a thread of its own, because Dask calls this in its loop
-                again = (done.result(), outer, function, arguments)
+            elif isinstance(error := done.exception(), _UnequalError):
+                again = (error, outer, function, arguments)  # in a thread of its own, as Dask calls this in its loop
                 threading.Thread(target=self._dismiss, args=again, daemon=True).start()
+            elif error is not None:
+                _finish(outer, error)
             else:
                 _finish(outer, done.result())
 
         inner.add_done_callback(ended)
 
     def _dismiss(
-        self, unequal: _Unequal, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]
+        self, unequal: _UnequalError, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]
     ) -> None:
         """Say which worker does not fit, end it, and give its work to another one."""
         with self._lock:
@@ -167,7 +174,7 @@ def _if_equal(wanted: dict[str, str], function: Callable[..., Any], *arguments: 
     if (here := versions()) != wanted:
         from distributed import get_worker
 
-        return _Unequal(get_worker().address, here)
+        raise _UnequalError(get_worker().address, here)
     return function(*arguments)
 
 
