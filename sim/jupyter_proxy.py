@@ -19,12 +19,21 @@ from urllib.parse import urlsplit
 LOOPBACK = {"127.0.0.1", "localhost", "::1"}
 
 
+def is_between() -> bool:
+    """Return whether a proxy is between this machine and the user's browser."""
+    return bool(_server())
+
+
 def reachable(address: str) -> str:
     """Return the address of a page of this machine as the user's browser reaches it; without a proxy it is the same."""
-    server = os.environ.get("COURSE_PROXY") or os.environ.get("JUPYTERHUB_SERVICE_PREFIX", "")
     parts = urlsplit(address)
-    if not server or parts.hostname not in LOOPBACK:
+    if not is_between() or parts.hostname not in LOOPBACK:
         return address
-    base = os.environ.get("JUPYTERHUB_PUBLIC_URL") or f"/{server.strip('/')}"
+    base = os.environ.get("JUPYTERHUB_PUBLIC_URL") or f"/{_server().strip('/')}"
     path = f"{base.rstrip('/')}/proxy/{parts.port}{parts.path}"
     return f"{path}?{parts.query}" if parts.query else path
+
+
+def _server() -> str:
+    """Return the path of the Jupyter server, empty without a proxy."""
+    return os.environ.get("COURSE_PROXY") or os.environ.get("JUPYTERHUB_SERVICE_PREFIX", "")
