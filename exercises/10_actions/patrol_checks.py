@@ -256,6 +256,8 @@ def result(recording, parameters):
         why = "The patrol was driven to its end, but ended as ABORTED: nobody called goal_handle.succeed()"
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
         why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
+    elif found["status"] == "SUCCEEDED" and found["visited"] != total:
+        why = f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
     passed = found["status"] == "SUCCEEDED" and found["visited"] == total
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
@@ -314,7 +316,5 @@ def cancel(recording, parameters):
         called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
         why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
     elif found["visited"] not in counts:
-        why = (
-            f"visited is {found['visited']}, but the robot had been at {min(counts)} waypoints of the cancelled patrol"
-        )
+        why = f"visited is {found['visited']}, but the robot had been at {min(counts)} of the waypoints when it was cancelled"
     return Finding(not why, expected, measured, found["at"], explanation=why)

@@ -245,8 +245,8 @@ MEANINGS = (
     (
         re.compile(
             r"AttributeError: '(?!(?:Twist|LaserScan|String|Float\d+|Odometry|Vector3|Header|Subscription|Publisher|"
-            r"Timer|Clock|Time|Duration|Parameter|Point|Quaternion|Pose|Image|Imu|Range|Buffer)')(?=[A-Z])(\w+)' object "
-            r"has no attribute '(\w+)'"
+            r"Timer|Clock|Time|Duration|Parameter|Point|Quaternion|Pose|Image|Imu|Range|Buffer)')(?=[A-Z])(\w+)' "
+            r"object has no attribute '(\w+)'"
         ),
         "self.{1} is not set when it is used: set it in __init__ before timers and callbacks, spelt the same way",
     ),
