@@ -167,4 +167,11 @@ def parks(recording, parameters):
         return Finding(False, expected, f"the run ended after {x.times[-1] / 1e9:.1f} s")
     worst = last[np.argmax(np.abs(last - wanted))]
     right = abs(worst - wanted) <= tolerance
-    return Finding(bool(right), expected, f"{worst:.2f} m")
+    why = ""
+    for shift, words in (
+        (MOUNT[0], "the distance is measured from the lidar, and is asked for from base_link"),
+        (-MOUNT[0], "the place of the lidar on the cart is taken with the wrong sign"),
+    ):
+        if not right and abs(worst - wanted - shift) <= tolerance:
+            why = f"it stands {abs(shift):g} m too {'near' if shift < 0 else 'far'}: {words}"
+    return Finding(bool(right), expected, f"it stood {worst:.2f} m from the wall", explanation=why)

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 Place = tuple[int, str]
 LONGEST_WAIT = 8.0  # [s] of counted ticks; a later message was hardly meant
 ENDS = ("shutdown", "destroy_node")  # what belongs behind spin()
-HARMLESS = frozenset(
-    {*ENDS, "try_shutdown", "join", "cancel", "destroy", "info", "print", "close", "stop", "remove_node"}
-)
+HARMLESS = frozenset({
+    *ENDS, "try_shutdown", "join", "cancel", "destroy", "close", "stop", "remove_node", "print", "get_logger", "info",
+    "warning", "error", "ok", "exit", "Twist",
+})  # fmt: skip
 
 
 def called(node: ast.AST) -> list[str]:
@@ -34,16 +35,39 @@ def _call(statement: ast.stmt) -> str:
 
 
 def behind_spin(tree: ast.AST) -> Iterator[Place]:
+    """Find what is called behind spin(), also in the `finally` of a `try` that spins."""
     for block in _blocks(tree):
-        spins = [i for i, statement in enumerate(block) if _call(statement).rpartition(".")[2] == "spin"]
-        for statement in block[spins[0] + 1 :] if spins else ():
+        spins = [i for i, statement in enumerate(block) if _spins(statement)]
+        after = block[spins[0] + 1 :] if spins else []
+        for each in block:
+            if isinstance(each, ast.Try) and any(_spins(statement) for statement in each.body):
+                after += [*(part for handler in each.handlers for part in handler.body), *each.finalbody]
+        for statement in after:
             if lost := [name for name in called(statement) if name not in HARMLESS]:
                 yield (
                     statement.lineno,
-                    f"{lost[0]}() stands behind {_call(block[spins[0]])}(), which returns only when the node is shut "
-                    "down: it does not run before. A timer or a subscription calls a function while the node spins",
+                    f"{lost[0]}() stands behind spin(), which returns only when the node is shut down: it does not run "
+                    "before. A timer or a subscription calls a function while the node spins",
                 )
                 return
+
+
+def _spins(statement: ast.stmt) -> bool:
+    return _call(statement).rpartition(".")[2] == "spin"
+
+
+def behind_return(tree: ast.AST) -> Iterator[Place]:
+    for block in _blocks(tree):
+        ends = [
+            i for i, each in enumerate(block) if isinstance(each, ast.Return | ast.Raise | ast.Continue | ast.Break)
+        ]
+        for statement in block[ends[0] + 1 :] if ends else ():
+            yield (
+                statement.lineno,
+                f"this line never runs: {ast.unparse(block[ends[0]])[:40]}, line {block[ends[0]].lineno}, ends the block "
+                "before it",
+            )
+            return
 
 
 def other_name_than_main(tree: ast.Module) -> Iterator[Place]:
@@ -162,6 +186,6 @@ def counts_too_far(tree: ast.AST) -> Iterator[Place]:
 
 
 LOOKS = (
-    other_name_than_main, behind_spin, cancelled_at_once, never_true, one_callback_of_two, ended_before,
+    other_name_than_main, behind_spin, behind_return, cancelled_at_once, never_true, one_callback_of_two, ended_before,
     counts_too_far,
 )  # fmt: skip
