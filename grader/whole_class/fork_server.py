@@ -125,8 +125,8 @@ def _import_all() -> None:
 def load_compiled(package: ModuleType) -> None:
     """Load the compiled part of a package of ROS interfaces."""
     for found in vars(package).values():
-        if isinstance(found, type) and hasattr(type(found), "__import_type_support__"):
-            type(found).__import_type_support__()
+        if load := getattr(type(found), "__import_type_support__", None):  # of the class of message classes
+            load()
             break
 
 

@@ -174,20 +174,23 @@ def _grade(setup: Setup, job: Job, folder: Path) -> Graded:
             except subprocess.TimeoutExpired:
                 late = True
         finally:
-            end(process)
+            code = end(process)
             RUNNING.ended(process)
         if late:
             return Graded(None, fault=f"the grading was not done after {setup.deadline:g} s")
         errors.seek(max(0, errors.seek(0, os.SEEK_END) - ERROR_TAIL))
         said = shown(errors.read().decode(errors="replace").strip().rpartition("\n")[2])
-    if process.returncode not in (0, 1):
-        how = f"signal {-process.returncode}" if process.returncode < 0 else f"exit code {process.returncode}"
+    if code not in (0, 1):
+        how = f"signal {-code}" if code < 0 else f"exit code {code}"
         return Graded(None, fault=f"the grading ended with {how}{': ' if said else ''}{said}")
     return _bring_back(setup, job, folder)
 
 
-def end(process: ForkedProcess) -> None:
-    """End a grading and its process group: SIGINT, SIGTERM, SIGKILL. One that has ended by itself is only reaped."""
+def end(process: ForkedProcess) -> int:
+    """End a grading and its process group: SIGINT, SIGTERM, SIGKILL; return its exit code.
+
+    One that has ended by itself is only reaped.
+    """
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
         if process.poll() is not None:
             break
@@ -197,7 +200,7 @@ def end(process: ForkedProcess) -> None:
             process.wait(GRACE)
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+    return process.wait()
 
 
 def _bring_back(setup: Setup, job: Job, folder: Path) -> Graded:
