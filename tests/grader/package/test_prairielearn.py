@@ -93,6 +93,7 @@ def test_the_page_of_every_exercise_asks_for_its_files(root, tmp_path):
         assert wanted == list(exercise.parts) or (wanted == [f"{name}.zip"] and any("/" in n for n in exercise.parts))
 
 
+@pytest.mark.proof
 def test_what_cannot_be_read_costs_no_attempt(grader):
     results = grader({"a.py": b"", "b.py": b""})
     assert results["gradable"] is False and f"holds no {FILE}" in results["format_errors"][0]
