@@ -13,7 +13,7 @@ from gz_course.grader.learning_platforms.lateness import UNKNOWN, absolute, late
 from gz_course.grader.learning_platforms.matching import Match, match
 from gz_course.grader.learning_platforms.roster import Roster, read_roster
 from gz_course.grader.learning_platforms.submission_times import Submitted, submission_times
-from gz_course.grader.whole_class.found import CANVAS_LATE
+from gz_course.grader.whole_class.found import CANVAS, CANVAS_LATE
 from gz_course.grader.whole_class.gradebook import read_gradebook
 
 WORKSHEET_TIME = "%A, %d %B %Y, %I:%M %p"  # of Moodle in English: Thursday, 12 November 2026, 2:33 PM
@@ -57,8 +57,8 @@ def export(
         when = submitted(each)
         if due is None:
             return ""
-        if when is None and CANVAS_LATE.fullmatch(each.member.row.submission):
-            return "LATE, says Canvas"
+        if when is None and CANVAS.fullmatch(each.member.row.submission):
+            return "LATE, says Canvas" if CANVAS_LATE.fullmatch(each.member.row.submission) else ""
         return lateness(due, when.time if when else None)
 
     def facts(each: Match) -> list[str]:

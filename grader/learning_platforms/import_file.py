@@ -115,9 +115,9 @@ def _canvas(
     place = _assignment(roster, section, column)
     title = column if place is None else roster.header[place]
     possible = f"{most if points is None else points:g}"
-    if place is not None and roster.points and (theirs := roster.points[place]):
-        _check_points(theirs, points, most, f"{shown(title, 120)} in Canvas")
-        possible = theirs
+    if place is not None:  # an empty cell leaves Canvas's points as they are
+        possible = roster.points[place] if roster.points else ""
+        _check_points(possible, points, most, f"{shown(title, 120)} in Canvas")
     mark = roster.column(LATE) if late is not None else None
     kept = [*range(section + 1), *([] if mark is None else [mark])]
     student = roster.header[0].casefold() == "student"

@@ -57,14 +57,14 @@ def match(rows: list[Row], roster: Roster) -> list[Match]:
     known = {kind for kind, _ in index}
     chosen = [(member, *_chosen(member, index, known, roster)) for row in rows for member in members(row)]
     takers: dict[int, list[Member]] = defaultdict(list)
-    for member, place, _ in chosen:
-        if place is not None:
-            takers[place].append(member)
+    for member, at, _ in chosen:
+        if at is not None:
+            takers[at].append(member)
     found = []
-    for member, place, why in chosen:
-        person = None if place is None else roster.people[place]
-        if place is not None and person is not None and len(takers[place]) > 1:
-            others = ", ".join(sorted(each.row.submission for each in takers[place]))
+    for member, at, why in chosen:
+        person = None if at is None else roster.people[at]
+        if at is not None and person is not None and len(takers[at]) > 1:
+            others = ", ".join(sorted(each.row.submission for each in takers[at]))
             found.append(Match(member, None, f"{person.name} has several submissions: {shown(others)}"))
         else:
             found.append(Match(member, person, why))

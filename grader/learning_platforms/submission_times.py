@@ -1,9 +1,10 @@
 """When submissions were handed in: as the platform says, else the last commit of a clone, else the newest file.
 
-These are claims: a commit and a file have the time that their author's computer gave them. No program of a submission
-runs for this, and no configuration of its repository is read.
+A file of Canvas has no time of its own; its name says whether it was late. Commits and files are claims: they have the
+time that their author's computer gave them. No program of a submission runs for this, and no configuration of its
+repository is read.
 
-Source: git-cat-file(1) and git(1) (GIT_OBJECT_DIRECTORY); gitrepository-layout(5).
+Source: Canvas, `lib/content_zipper.rb`; git-cat-file(1) and git(1) (GIT_OBJECT_DIRECTORY); gitrepository-layout(5).
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from typing import NamedTuple
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.whole_class.found import Found, find_submissions, readable
+from gz_course.grader.whole_class.found import CANVAS, Found, find_submissions
 
 GIT = 10.0  # [s] for one call of git
 LARGEST_REF, LARGEST_REFS = 4096, 4 << 20  # [bytes]
@@ -45,7 +46,7 @@ def submission_times(path: Path, exercise: Exercise) -> dict[str, Submitted]:
         folders = _folders(path) if path.is_dir() else {}
         ours = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="course-git-")))
         for each in submissions:
-            if submitted := _submitted(each, folders.get(each.source), ours):
+            if submitted := _submitted(each, folders.get(each.entry), ours):
                 found[each.source] = submitted
     return found
 
@@ -56,6 +57,8 @@ def _submitted(found: Found, folder: Path | None, ours: Path) -> Submitted | Non
     if folder is not None and (folder / ".git").exists():  # its files are as old as the clone
         time = commit_time(folder / ".git", ours)
         return Submitted(time, "commit") if time else None
+    if CANVAS.fullmatch(found.entry):  # Canvas gives files the time at which it packs them
+        return None
     try:
         times = [member.modified for member in found.files().values() if member.modified is not None]
     except (UsageError, OSError):
@@ -66,14 +69,14 @@ def _submitted(found: Found, folder: Path | None, ours: Path) -> Submitted | Non
 
 
 def _folders(path: Path) -> dict[str, Path]:
-    """Return name in the gradebook -> folder, for the folders in `path`, or in the only folder there."""
+    """Return name -> folder, for the folders in `path`, or in the only folder there."""
     try:
         top = [each for each in path.iterdir() if each.is_dir() and not each.is_symlink()]
         if len(top) == 1:
             top += [each for each in top[0].iterdir() if each.is_dir() and not each.is_symlink()]
     except OSError:
         return {}
-    return {readable(each.name): each for each in top}
+    return {each.name: each for each in top}
 
 
 def commit_time(git: Path, ours: Path) -> datetime | None:

@@ -27,7 +27,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.run.sandbox import AUTO, LEVELS, check_jobs, choose, level_module
 from gz_course.grader.submission.intake import Selection
-from gz_course.grader.whole_class.dask_cluster import dask_executor
+from gz_course.grader.whole_class.dask_cluster import Needs, dask_executor
 from gz_course.grader.whole_class.found import Found
 from gz_course.grader.whole_class.gradebook import as_csv, write_gradebook
 from gz_course.grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gradings_end_here
@@ -96,7 +96,8 @@ class ClassRun:
             if local:
                 executor, slots, gone = self._here(jobs, stack)
             else:
-                executor, slots, gone = stack.enter_context(dask_executor(dask or "", self._check_slots))
+                needs = Needs(versions(), self.sandbox, self.demand)
+                executor, slots, gone = stack.enter_context(dask_executor(dask or "", self._check_slots, needs))
             results: dict[str, Result] = {}
             todo = deque((each, 1) for each in found)
             order = [each.student for each, _ in todo]

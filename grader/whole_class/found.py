@@ -53,7 +53,8 @@ class Found:
 
     `read` returns the expected file and everything that belongs to it. It raises UsageError, or RefusedError, if there
     is nothing to grade in it, and UnreadableError if the machine cannot read it. `submitted` is when, as the platform
-    says; `files` returns all files without reading them, and raises as `read` does.
+    says; `files` returns all files without reading them, and raises as `read` does. `entry` is the name that `source`
+    shows, as it is in the folder or zip.
     """
 
     student: str
@@ -62,6 +63,7 @@ class Found:
     read: Callable[[], Selection]
     submitted: datetime | None = None
     files: Callable[[], Tree] = dict
+    entry: str = ""
 
 
 class _Owner(NamedTuple):
@@ -103,10 +105,10 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     for name, thing in sorted(top.items()):
         owner, file, when = _owner(name, folder=callable(thing), names=names)
         if name.startswith(".") and name.strip(".") and not owner.id:  # a hidden folder is nobody's, but is reported
-            left_out.append(readable(name))
+            left_out.append(_label(name))
             continue
         if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
-            left_out.append(readable(name))
+            left_out.append(_label(name))
             continue
         tree = thing if callable(thing) else partial(_alone, file, thing)
         group = groups.get(owner)
@@ -124,17 +126,17 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
 
 def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
     """Give every student a unique, printable name."""
-    names = [readable(owner.student) for owner in groups]
+    names = [_label(owner.student) for owner in groups]
     labels = unique_names(names, [owner.id for owner in groups])
     found = []
     for label, (owner, group) in zip(labels, groups.items(), strict=True):
-        source = readable(group.source)
+        source = _label(group.source)
         read = partial(_read, group, exercise, source)
-        found.append(Found(label, owner.id, source, read, group.submitted, group.files))
+        found.append(Found(label, owner.id, source, read, group.submitted, group.files, group.source))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))
 
 
-def readable(name: str) -> str:
+def _label(name: str) -> str:
     """Return a name fit to be shown: foreign bytes and control codes replaced, not too long."""
     clean = name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
     return shown(clean, 120).strip() or "(no name)"
@@ -188,12 +190,12 @@ def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
             if _is_trace(first, folder=bool(rest)):
                 continue
             try:
-                plain_name(raw, readable(first))
+                plain_name(raw, _label(first))
             except RefusedError as error:
                 unsafe[first[:LONGEST_PART]] = error
                 continue
             if rest:
-                folders.setdefault(first, {})[plain_name(rest, readable(first))] = member
+                folders.setdefault(first, {})[plain_name(rest, _label(first))] = member
             else:
                 top[first] = member
     except OSError:

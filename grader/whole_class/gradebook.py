@@ -87,8 +87,8 @@ def read_gradebook(folder: Path) -> list[Row]:
 
 def _row(line: dict[str, str]) -> Row:
     score = float(line["score"]) if line["score"] else None
-    texts = [line[name] for name in ("student", "id", "submission")]
-    return Row(*texts, score, float(line["max_score"]), line["outcome"], line["diagnosis"])
+    most, outcome, told = float(line["max_score"]), line["outcome"], line["diagnosis"]
+    return Row(line["student"], line["id"], line["submission"], score, most, outcome, told)
 
 
 def _unguarded(text: str) -> str:

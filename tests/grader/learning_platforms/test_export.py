@@ -55,11 +55,11 @@ def test_the_command(course, grades, tmp_path):
     outcome = course("export", "03", folder, "--roster", roster, "--out", tmp_path / "m.csv", *more)
     assert outcome.code == 1, outcome.output
     assert "2 of 3 students, for Moodle. In Moodle: Grades, Import" in outcome.words
-    assert "not in it: eve (eve): nobody in the roster" in outcome.words and "late: 1" in outcome.words
+    assert "not in it: eve (eve): nobody in the roster" in outcome.words and "late: 2" in outcome.words
     rows = parsed((tmp_path / "m.csv").read_text())
     assert [[*each[3:5], *each[5:]] for each in rows[1:]] == [
         ["jane@x.org", "65.5", "'=x", "LATE by 1 min"],
-        ["jd@x.org", "80", "'=x", ""],
+        ["jd@x.org", "80", "'=x", "LATE, says Canvas"],
     ]
     told = parsed((tmp_path / "m.overview.csv").read_text())
     assert [each[0] for each in told[1:]] == ["jane", "doejohn", "eve"] and told[3][-2] == "no"
@@ -107,11 +107,18 @@ def test_the_time_of_a_commit_and_none_of_its_configuration(exercise, tmp_path):
 
 
 def test_canvas_marks_what_is_late(course, grades, tmp_path):
-    folder = grades(("doejane", "7", "doejane_LATE_7_11_t.py", 80))
+    folder = grades(("doejane", "7", "doejane_LATE_7_11_t.py", 80), ("roejohn", "8", "roejohn_8_11_t.py", 70))
     roster = tmp_path / "roster.csv"
-    roster.write_text(table([*CANVAS_HEAD[:5], "LATE", "03_teleop (1)"], ["Doe, Jane", "7", "", "", "A", "", ""]))
+    roster.write_text(
+        table(
+            [*CANVAS_HEAD[:5], "LATE", "03_teleop (1)"],
+            ["Doe, Jane", "7", "", "", "A", "", ""],
+            ["Roe, John", "8", "", "", "A", "", ""],
+        )
+    )
     outcome = course(
         "export", "03", folder, "--roster", roster, "--out", tmp_path / "c.csv", "--deadline", "2026-11-20T23:59Z"
     )
     assert outcome.code == 0, outcome.output
-    assert parsed((tmp_path / "c.csv").read_text())[2][5:] == ["LATE, says Canvas", "80"]
+    rows = parsed((tmp_path / "c.csv").read_text())
+    assert [row[5:] for row in rows[2:]] == [["LATE, says Canvas", "80"], ["", "70"]]
