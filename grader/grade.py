@@ -129,7 +129,6 @@ def run_trial(
 
     `heartbeat` is told how far it has come; `outcome` is that of a submission with a fault.
     """
-    from gz_course.grader.report.verdicts import write_verdicts
     from gz_course.grader.run.session import record_unrunnable, run
 
     path = recording_path(exercise, trial, out)
@@ -138,6 +137,9 @@ def run_trial(
         result = run(in_trial, submission, trial, pace, path, sandbox, heartbeat)
     else:
         result = record_unrunnable(in_trial, submission, trial, path, outcome)
+
+    from gz_course.grader.report.verdicts import write_verdicts  # not before the submission starts up
+
     with result.recorder as recorder:
         recorder.flush()
         recording = Recording(recorder.part)

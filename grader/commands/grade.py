@@ -73,6 +73,7 @@ def command(
         """Import what shows the report, and make it ready, while the submission runs."""
         with many_imports():
             importlib.import_module("gz_course.grader.report.terminal")
+            importlib.import_module("pyarrow")  # which the recording needs that comes from there
             outputs.prepare()
 
     if pace not in PACES:

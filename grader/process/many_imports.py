@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import os
+import sys
 from collections.abc import Iterator
 
 
@@ -22,11 +23,13 @@ def many_imports() -> Iterator[None]:
     """
     given = os.environ.get("MUJOCO_GL")
     os.environ["MUJOCO_GL"] = given or "disabled"
+    modules = len(sys.modules)
     gc.disable()
     try:
         yield
     finally:
-        gc.freeze()
+        if len(sys.modules) > modules:  # else there is nothing new but what may be garbage
+            gc.freeze()
         gc.enable()
         if given is None:
             del os.environ["MUJOCO_GL"]

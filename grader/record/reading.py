@@ -54,7 +54,7 @@ class Line:
     level: str
 
 
-def _flat(column: Any) -> Any:
+def flattened(column: Any) -> Any:
     """Return the values of an Arrow column of lists, one after another.
 
     `flatten` does the same, but imports all of Arrow's functions, which takes longer than reading a recording.
@@ -116,7 +116,7 @@ class Recording:
         return sorted(
             entity
             for (entity, component), parts in self._rows.items()
-            if component == "Scalars:scalars" and all(len(_flat(column)) == len(times) for times, column in parts)
+            if component == "Scalars:scalars" and all(len(flattened(column)) == len(times) for times, column in parts)
         )
 
     def has(self, name: str) -> bool:
@@ -128,7 +128,7 @@ class Recording:
         if not parts:
             return Signal(np.empty(0, dtype=np.int64), np.empty(0))
         times = np.concatenate([t for t, _ in parts])
-        values = np.concatenate([_flat(column).to_numpy(zero_copy_only=False) for _, column in parts])
+        values = np.concatenate([flattened(column).to_numpy(zero_copy_only=False) for _, column in parts])
         if len(values) != len(times):
             raise UsageError(f"{name} holds lists, not single numbers{did_you_mean(name, self.signals())}")
         order = np.argsort(times, kind="stable")
@@ -151,8 +151,8 @@ class Recording:
         for (times, text), (_, level) in zip(texts, levels, strict=True):
             out += zip(
                 times.tolist(),
-                _flat(text).to_pylist(),
-                _flat(level).to_pylist(),
+                flattened(text).to_pylist(),
+                flattened(level).to_pylist(),
                 strict=True,
             )
         out.sort(key=lambda row: row[0])
@@ -181,7 +181,7 @@ class Recording:
                 rows = [(np.zeros(1, dtype=np.int64), self._static[entity][component])]
             if not rows:
                 return None
-            values = [_flat(_flat(column)).to_numpy(zero_copy_only=False) for _, column in rows]
+            values = [flattened(flattened(column)).to_numpy(zero_copy_only=False) for _, column in rows]
             parts.append((np.concatenate([t for t, _ in rows]), np.concatenate(values).reshape(-1, width)))
         (times, positions), (_, quaternions) = parts
         order = np.argsort(times, kind="stable")
@@ -190,12 +190,12 @@ class Recording:
     def points_at(self, entity: str, time_ns: int) -> np.ndarray:
         """Return the last point cloud (n, 3) [m] of an entity at a time [ns]; empty before the first."""
         row = self._last_row(entity, "Points3D:positions", time_ns)
-        return np.empty((0, 3)) if row is None else np.asarray(_flat(row.values)).reshape(-1, 3)
+        return np.empty((0, 3)) if row is None else np.asarray(flattened(row.values)).reshape(-1, 3)
 
     def picture_at(self, entity: str, time_ns: int) -> bytes:
         """Return the last encoded image of an entity at a time [ns]; empty before the first."""
         row = self._last_row(entity, "EncodedImage:blob", time_ns)
-        return b"" if row is None else bytes(np.asarray(_flat(row.values), dtype=np.uint8))
+        return b"" if row is None else bytes(np.asarray(flattened(row.values), dtype=np.uint8))
 
     def pictures(self, entity: str) -> tuple[np.ndarray, list[bytes]]:
         """Return the encoded images of an entity: times [ns] and one file each."""
