@@ -62,12 +62,12 @@ def match(rows: list[Row], roster: Roster) -> list[Match]:
             takers[at].append(member)
     found = []
     for member, at, why in chosen:
-        person = None if at is None else roster.people[at]
-        if at is not None and person is not None and len(takers[at]) > 1:
+        owner = None if at is None else roster.people[at]
+        if at is not None and owner is not None and len(takers[at]) > 1:
             others = ", ".join(sorted(each.row.submission for each in takers[at]))
-            found.append(Match(member, None, f"{person.name} has several submissions: {shown(others)}"))
+            found.append(Match(member, None, f"{owner.name} has several submissions: {shown(others)}"))
         else:
-            found.append(Match(member, person, why))
+            found.append(Match(member, owner, why))
     return found
 
 

@@ -87,8 +87,9 @@ def _page(exercise: Exercise) -> bytes:
         for name in exercise.parts
     )
     lines = "".join(f"  <p>{html.escape(part)}</p>\n" for part in exercise.summary.strip().split("\n\n"))
+    how = "" if flat else f"  <p>Hand in {html.escape(wanted)}, a zip of these files in their folders.</p>\n"
     text = (
-        f"<pl-question-panel>\n{lines}  <ul>\n{given}  </ul>\n</pl-question-panel>\n"
+        f"<pl-question-panel>\n{lines}  <ul>\n{given}  </ul>\n{how}</pl-question-panel>\n"
         f"<pl-file-upload file-names={_quoted(wanted)}></pl-file-upload>\n"
         "<pl-submission-panel>\n  <pl-external-grader-results></pl-external-grader-results>\n"
         "  <pl-file-preview></pl-file-preview>\n</pl-submission-panel>\n"

@@ -68,6 +68,7 @@ def test_the_parts_find_one_another():
     assert volume["persistentVolumeClaim"]["claimName"] == resources()["PersistentVolumeClaim"]["metadata"]["name"]
 
 
+@pytest.mark.proof
 def test_the_commands_have_these_options():
     scheduler = pytest.importorskip("distributed.cli.dask_scheduler")
     worker = pytest.importorskip("distributed.cli.dask_worker")

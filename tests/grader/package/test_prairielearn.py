@@ -82,15 +82,18 @@ def test_the_page_of_every_exercise_asks_for_its_files(root, tmp_path):
         package(exercise, tmp_path / "q.zip")
         with zipfile.ZipFile(tmp_path / "q.zip") as packed:
             page = Elements()
-            page.feed(packed.read(f"{name}/question.html").decode())
+            text = packed.read(f"{name}/question.html").decode()
+            page.feed(text)
             given = {each.partition("clientFilesQuestion/")[2] for each in packed.namelist()} - {""}
         elements = dict(page.found)
         assert not page.open and "pl-external-grader-results" in elements
         assert {a["file-name"] for tag, a in page.found if tag == "pl-file-download"} == given
         wanted = elements["pl-file-upload"]["file-names"].split(", ")
+        assert ("a zip of these files in their folders" in text) == (wanted == [f"{name}.zip"])
         assert wanted == list(exercise.parts) or (wanted == [f"{name}.zip"] and any("/" in n for n in exercise.parts))
 
 
+@pytest.mark.proof
 def test_what_cannot_be_read_costs_no_attempt(grader):
     results = grader({"a.py": b"", "b.py": b""})
     assert results["gradable"] is False and f"holds no {FILE}" in results["format_errors"][0]
