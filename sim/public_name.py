@@ -26,6 +26,19 @@ def stand_for(public: str, private: str) -> None:
     sys.meta_path.insert(0, _PublicModules(f"{public}.", f"{private}."))
 
 
+def stand_beside(launch: ModuleType, public: str, private: str) -> None:
+    """Do as `stand_for`, for a package that works with the `launch` of the course only.
+
+    Raises ImportError if `launch` is a real installation, beside which `public` is not installed.
+    """
+    if launch is not importlib.import_module("gz_course.sim.launch"):
+        raise ImportError(
+            f"launch comes from {launch.__path__[0]}, but no {public} stands beside it, and that of the course works "
+            f"with the course's launch only; install {public} there, too, or remove that launch"
+        )
+    stand_for(public, private)
+
+
 class _PublicModules(MetaPathFinder, Loader):
     """The finder and loader of modules below a public name; it returns those below the private name."""
 

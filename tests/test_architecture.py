@@ -106,7 +106,7 @@ ALLOWED = {
     "sim/tf_transformations": ("sim/tf_transformations",),
     AGENT: (AGENT,),
 }
-FOR_ALL = ("sim/did_you_mean", "sim/orphan_watch")  # what every room may import
+FOR_ALL = ("sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
 NO_ROS_MESSAGES = ("sim/gz", "sim/view", "grader/score", "grader/report")
 
 

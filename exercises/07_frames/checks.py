@@ -1,10 +1,13 @@
 """Are the points on /nearest_hit where the nearest hit of their scan was, in the frame odom?
 
 The truth is computed from the scan as it was sent, from the simulator's pose of the robot at that time, and from the
-mount of the scanner in the simulated robot. Wrong points are compared with those of common misconceptions.
+mount of the scanner in the simulated robot. Wrong points are compared with those of common misconceptions, some of
+which are in `misconceptions.py`.
 """
 
+import runpy
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -18,6 +21,8 @@ TURNS = 0.5  # [rad/s] faster is turning
 STEADY = 0.2  # [rad/s] change of the turning rate within `AROUND`; more is a change of speed, which is not judged
 AROUND = 0.1  # [s]
 SAME = 5e-4  # [s] between equal stamps
+MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
+polar, about_z = MISCONCEPTIONS["polar"], MISCONCEPTIONS["about_z"]
 TOPIC, SCAN, TF = "topics/nearest_hit", "topics/scan", "topics/tf"
 PUBLIC_MOUNT = (0.2, -0.14, 0.3), (0.0, 0.0, np.sin(1.0), np.cos(1.0))  # of turned_lidar.sdf: place [m], quaternion
 
@@ -68,11 +73,6 @@ class Scans:
     by_stamp: bool = True
 
 
-def about_z(angle):
-    c, s, zero = np.cos(angle), np.sin(angle), np.zeros_like(angle)
-    return np.stack([np.stack([c, -s, zero], -1), np.stack([s, c, zero], -1), np.stack([zero, zero, zero + 1], -1)], -2)
-
-
 def matrices(x, y, z, w):
     """Return the rotation matrices (n, 3, 3) of quaternions."""
     rows = [
@@ -81,11 +81,6 @@ def matrices(x, y, z, w):
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     return np.stack([np.stack(row, -1) for row in rows], -2)
-
-
-def polar(distance, angle):
-    """Return points (n, 3) [m] in the plane of the scanner."""
-    return np.stack([distance * np.cos(angle), distance * np.sin(angle), np.zeros_like(angle)], -1)
 
 
 def values(recording, name):
@@ -233,10 +228,19 @@ def explanation(recording, found, truth, which, bad):
             known = ~np.isnan(predicted[wrong, 0])
             if known.sum() < FEWEST or near(found.points, predicted, CLOSE)[wrong][known].mean() < SHARE:
                 continue
-            if not any(near(predicted, other, CLOSE / 3)[wrong].all() for other in same):
+            if words not in fitting and not any(near(predicted, other, CLOSE / 3)[wrong].all() for other in same):
                 fitting.append(words)
                 same.append(predicted)
-    return f"your points are {', or '.join(fitting[:2])}" if fitting else ""
+    if not fitting:
+        seen = both_frames(recording, found).inverse().of(found.points)
+        fitting = [MISCONCEPTIONS["apart"](found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong])]
+    return f"your points are {', or '.join(fitting[:2])}" if fitting[0] else ""
+
+
+def both_frames(recording, found):
+    """Return the poses of the scanner in odom, one for each scan."""
+    robot = odom(recording, found.stamps)
+    return Frame(np.einsum("nij,njk->nik", robot.turn, found.mount.turn), robot.of(found.mount.place))
 
 
 def silence(found, truth):
@@ -253,7 +257,7 @@ def silence(found, truth):
 def predictions(recording, found, truth):
     """Yield the end of the sentence "your points are ..." and what a program with that misconception publishes."""
     robot, mount, hits = odom(recording, found.stamps), found.mount, found.hits
-    both = Frame(np.einsum("nij,njk->nik", robot.turn, mount.turn), robot.of(mount.place))
+    both = both_frames(recording, found)
     on_robot, count = mount.of(hits), len(hits)
     heard = recording.signal(f"{TF}/count").times / 1e9
 
@@ -300,40 +304,15 @@ def predictions(recording, found, truth):
     yield "those of the mount in the public world: ask /tf_static, other robots differ", robot.of(written.of(hits))
     yield "the place of the robot, not of the hit", robot.place
     yield "the place of the scanner, not of the hit", both.place
-    for words, points in of_other_rays(found):
+    yield "transformed twice", both.of(both.of(hits))
+    yield "transformed twice by the pose of the robot", robot.of(robot.of(on_robot))
+    for words, (x, y, z, w) in MISCONCEPTIONS["of_other_quaternions"](both.turn):
+        yield words, Frame(matrices(x, y, z, w), both.place).of(hits)
+    for words, points in MISCONCEPTIONS["of_other_headings"](both.turn, hits, found.points - both.place):
+        yield words, points + both.place
+    for words, points in MISCONCEPTIONS["of_other_rays"](found):
         yield words, both.of(points)
     yield "always the same", still.place + found.points[~np.isnan(found.points[:, 0])][:1]
-
-
-def of_other_rays(found):
-    """Yield points in the scanner's frame that take another ray, or another direction for the ray."""
-    first, step = found.angles.T
-    distance = np.linalg.norm(found.hits, axis=-1)
-    around = 2 * np.pi * found.rays / np.array([len(row) for row in found.rows])
-    angle = first + found.rays * step
-    yield "off by angle_min: the angle of a ray is angle_min + i * angle_increment", polar(distance, found.rays * step)
-    yield "those of an angle in degrees: cos() and sin() take radians", polar(distance, np.degrees(angle))
-    yield "on the other side: angles grow to the left, y is range * sin(angle)", polar(distance, -angle)
-    yield "those with sin and cos exchanged: x is range * cos(angle)", polar(distance, np.pi / 2 - angle)
-    yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
-    yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
-    yield "those of a ray's number as its angle: angle_increment is missing", polar(distance, first + found.rays)
-    yield "those of the nearest distance, drawn straight ahead of the scanner", polar(distance, 0 * angle)
-    valid = [
-        np.where((row > low) & (row < high), row, np.nan)
-        for row, (low, high) in zip(found.rows, found.limits, strict=True)
-    ]
-    others = {
-        "the farthest hit, not the nearest": np.nanargmax,
-        "the hit of the first valid ray, not the nearest": lambda row: np.flatnonzero(~np.isnan(row))[0],
-        "the hit of the last valid ray, not the nearest": lambda row: np.flatnonzero(~np.isnan(row))[-1],
-        "the hit of the ray in the middle, not the nearest": lambda row: len(row) // 2,
-    }
-    for words, ray_of in others.items():
-        rays = np.array([ray_of(row) for row in valid])
-        yield words, polar(np.array([row[i] for row, i in zip(valid, rays, strict=True)]), first + rays * step)
-    every = [polar(row, a + np.arange(len(row)) * b) for row, a, b in zip(valid, first, step, strict=True)]
-    yield "the middle of all hits, not the nearest", np.array([np.nanmean(points, 0) for points in every])
 
 
 def stamps(recording, parameters):

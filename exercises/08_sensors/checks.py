@@ -132,6 +132,8 @@ def why_misplaced(recording, points, stamps, came, right):
     for scale, how in ((1e-3, "1000 times too large"), (1e3, "1000 times too small"), (1e-2, "100 times too large")):
         if fits(x * scale, y * scale):
             return f"the points are {how}: a depth picture of the encoding 32FC1 has metres, and points need metres"
+    if said := why_beside(at, x, y, red, right):
+        return said
     for colour in ("blue", "orange", "green"):
         if fits(x, y, places=posts(recording, colour)[0]):
             if colour == "blue":
@@ -165,6 +167,31 @@ def why_misplaced(recording, points, stamps, came, right):
             "most of the wrong points lie where no post stands, so walls or floor count as red: red is where R is much "
             "larger than G and B, and numbers of 8 bits overflow (2 * 200 is 144)"
         )
+    return ""
+
+
+def why_beside(at, ahead, left, places, right):
+    """Return what is wrong with `left` if it is another multiple of the true one; empty if `ahead` is wrong, too.
+
+    The multiple is the same for all points, or in proportion to 1 / ahead.
+    """
+    seen = [before_camera(tuple(each[i] for each in at), place) for i in range(len(ahead)) for place in places]
+    seen = np.array(seen).reshape(len(ahead), len(places), 2)
+    # of the posts at that distance the one whose side and direction fit best
+    near = np.abs(seen[:, :, 0] - RADIUS - ahead[:, None]) <= 0.15
+    same_side = np.sign(seen[:, :, 1]) == np.sign(left)[:, None]
+    which = np.where(near & same_side, np.abs(seen[:, :, 1]), np.inf).argmin(axis=1)
+    known = (near & same_side).any(axis=1) & (np.abs(left) > 0.05)
+    true = seen[np.arange(len(ahead)), which, 1]
+    if known.sum() < FEWEST or near.any(axis=1).mean() < 0.9:
+        return ""
+    factors = {"": left[known] / true[known], " for each metre ahead": left[known] / true[known] * ahead[known]}
+    for words, factor in factors.items():
+        usual = float(np.median(factor))
+        if abs(usual - 1) > 0.1 and np.mean(np.abs(factor - usual) <= 0.1 * abs(usual)) >= 0.8:
+            if words:
+                return "ahead is right, left is not: it does not grow with the distance, it lacks the factor ahead"
+            return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
     return ""
 
 
@@ -228,11 +255,12 @@ def why_turned(recording, when, turned):
         "the bias of the gyroscope was added up, too: it says {bias:.3f} rad/s while the robot stands": (rates * spans),
         "the bias was added instead of subtracted: it is {bias:.3f} rad/s": (rates + bias) * spans,
         "each message was taken for 0.01 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.01,
+        "the rates were added up without the time between two messages: add rate * time": rates - bias,
         "each message was taken for 0.1 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.1,
     }
     for words, steps in angles.items():
         for counts in (np.ones(len(steps), dtype=bool), turning):
-            if abs(float(steps[counts].sum()) - FULL_TURN) <= 0.1:
+            if abs(float(steps[counts].sum()) - FULL_TURN) <= max(0.1, 3 * np.abs(steps).max(initial=0.0)):
                 return words.format(bias=bias)
     return ""
 
@@ -256,7 +284,11 @@ def counts_the_posts(recording, parameters):
     sent = recording.signal("topics/red_post/count")
     sightings = int((sent.times <= first[0]).sum())
     pictures = int((recording.signal("topics/camera/image/count").times <= first[0]).sum())
-    if number == len(posts(recording, "blue")[0]) != red:
+    turned = float(np.diff(truth(recording, "yaw", np.array([0, first[0]])))[0])
+    if number < red and abs(turned) < 0.9 * FULL_TURN:
+        degrees = math.degrees(turned)
+        why = f"the number came when the robot had turned by {degrees:.0f} degrees: the rest was not seen yet"
+    elif number == len(posts(recording, "blue")[0]) != red:
         why = "that is the number of blue posts"
     elif number > 3 * max(pictures, 1):
         why = "so many are pixels, or columns, of red posts"

@@ -7,7 +7,19 @@ SETTLED = 7.0  # [s] after the start
 
 def explain(run):
     """Return the misconception that fits the run; empty if none does."""
-    looks = (open_loop, on_off, other_side, stopped, old_distance, wrong_sign, wound_up, saturated, swings)
+    looks = (
+        open_loop,
+        in_degrees,
+        on_off,
+        other_side,
+        stopped,
+        old_distance,
+        wrong_sign,
+        wound_up,
+        saturated,
+        swings,
+        elsewhere,
+    )
     return next((said for look in looks if (said := look(run))), "")
 
 
@@ -17,6 +29,16 @@ def open_loop(run):
     if any(end["kind"] == "subscription" and end["topic"] == "/lidar/scan" for end in ends):
         return ""
     return "your node does not subscribe to /lidar/scan, so it drives open loop, without feedback"
+
+
+def in_degrees(run):
+    values = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    if len(values) < 50 or np.mean(values > 5.0) < 0.1:
+        return ""
+    return (
+        f"angular.z was up to {values.max():.0f} rad/s, as if it were in degrees per second, or an angle or a bearing "
+        "in degrees: all of them are in radians"
+    )
 
 
 def on_off(run):
@@ -48,7 +70,7 @@ def stopped(run):
 
 def old_distance(run):
     late = run.times > run.changed + 6.0
-    if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2:
+    if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2 or np.abs(run.along[late]).sum() < 1.0:
         return ""
     usual = float(np.median(run.distance[late]))
     if abs(usual - run.asked[0]) > 0.12:
@@ -100,4 +122,28 @@ def swings(run):
     return (
         f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
         "only the distance is fed back, or the gain is too high for the time between two scans"
+    )
+
+
+def against_a_wall(run):
+    """Find out whether the robot was stopped by a wall."""
+    if not run.touches.any():
+        return ""
+    first = int(np.argmax(run.touches))
+    if run.times[first] > run.times[-1] - 3 or np.abs(run.along[first:]).sum() > 1.0:
+        return ""
+    return (
+        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: it turned too late or too little, "
+        "as with a gain that is too low, or if the wall ahead is not looked at"
+    )
+
+
+def elsewhere(run):
+    late = (run.times > SETTLED) & (run.times < run.changed)
+    usual, asked = float(np.median(run.distance[late])), float(run.asked[0])
+    if not np.isfinite(usual) or abs(usual - asked) < 0.2:
+        return ""
+    return (
+        f"the robot is {usual:.2f} m from the nearest point of its wall most of the time, where {asked:g} m is asked "
+        "for: your node measures to something else than that point, such as one fixed direction, or a gain is too low"
     )

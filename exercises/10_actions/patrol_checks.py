@@ -85,8 +85,21 @@ def interface(recording, parameters):
     if found.get("fault"):
         return Finding(False, expected, found["fault"], found["at"], explanation=f"{sentence(found['fault'])}")
     if gone := run.one("no_server"):
-        return Finding(False, expected, "nobody offers the action /patrol", gone["at"])
+        return Finding(
+            False, expected, "nobody offers the action /patrol", gone["at"], explanation=other_name(recording)
+        )
     return Finding(True, expected, "all fields have their types")
+
+
+def other_name(recording):
+    """Return under which other name an action is offered; empty if none is."""
+    ends = recording.facts().get("endpoints", [])
+    found = [e for e in ends if e["kind"] == "publisher" and e["topic"].endswith("/_action/status")]
+    if not found:
+        return ""
+    name = found[0]["topic"].removesuffix("/_action/status")
+    private = f"; the ~ in its name stands for {found[0]['node']}" if name.startswith(f"{found[0]['node']}/") else ""
+    return f"Your server offers the action {name}, not /patrol{private}"
 
 
 def sentence(text):
@@ -169,7 +182,8 @@ def feedback(recording, parameters):
     times = [start, *(each["at"] for each in said), end]
     gap = max(later - sooner for sooner, later in pairwise(times))
     if gap > LARGEST_GAP:
-        return wrong(f"{gap:.1f} s without feedback", end)
+        why = endless(run) or f"Your feedback is too rare: {len(said)} messages in {end - start:.0f} s"
+        return wrong(f"{gap:.1f} s without feedback", end, why)
     if len({(each["waypoint"], each["distance"]) for each in said}) == 1:
         return wrong("it was always the same", end, "Your feedback never changes: compute it anew in every round")
     indices = [each["waypoint"] for each in said]
@@ -183,8 +197,46 @@ def feedback(recording, parameters):
         left = float(np.hypot(*(here - np.array(points[each["waypoint"]]))))
         off += abs(left - each["distance"]) > 0.15
     if off > 0.1 * len(said):
-        return wrong(f"{off} of {len(said)} distances were wrong by more than 0.15 m", times[1])
+        why = other_distance(run, said, points)
+        return wrong(f"{off} of {len(said)} distances were wrong by more than 0.15 m", times[1], why)
     return Finding(True, expected, f"{len(said)} messages")
+
+
+def other_distance(run, said, points):
+    """Return what else the distances of the feedback are; empty if that is not known."""
+    places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
+    given, way = np.array([each["distance"] for each in said]), run.way[places]
+    steps = np.hypot(*np.diff(run.way, axis=0, prepend=run.way[:1]).T)
+    targets = np.array(points)
+    index = np.array([each["waypoint"] for each in said])
+
+    def to(numbers):
+        return np.hypot(*(way - targets[np.clip(numbers, 0, len(targets) - 1)]).T)
+
+    following = np.hypot(*np.diff(targets, axis=0).T)
+    candidates = {
+        "how far the robot is from where it started": np.hypot(*way.T),
+        "how far the robot has driven": np.cumsum(steps)[places] - np.cumsum(steps)[places[0]],
+        "how far it is to the last waypoint": to(np.full(len(index), len(targets))),
+        "how far it is to the next waypoint but one": to(index + 1),
+        "how far it is to the waypoint before": to(index - 1),
+        "the whole way that is left, over all waypoints": to(index) + [following[i:].sum() for i in index],
+        "0": np.zeros(len(index)),
+    }
+    for words, values in candidates.items():
+        if np.mean(np.abs(values - given) <= 0.15) >= 0.9:
+            return f"Your distance is {words}; it should be how far it is to the waypoint of the feedback"
+    return ""
+
+
+def endless(run):
+    """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
+    if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
+        return ""
+    return (
+        "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
+        "Patrol.Result (a function without return returns None, which is no result)"
+    )
 
 
 def result(recording, parameters):
@@ -192,6 +244,8 @@ def result(recording, parameters):
     if gate := no_patrol(run, expected):
         return gate
     found, total = run.one("result", "patrol"), len(run.waypoints("patrol"))
+    if found is None and (why := endless(run)):
+        return Finding(False, expected, "no result came", explanation=why)
     if found is None:
         return gated(expected, "no result came")
     if run.nearest("patrol", found["at"])[0] < total:
@@ -202,6 +256,8 @@ def result(recording, parameters):
         why = "The patrol was driven to its end, but ended as ABORTED: nobody called goal_handle.succeed()"
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
         why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
+    elif found["status"] == "SUCCEEDED" and found["visited"] != total:
+        why = f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
     passed = found["status"] == "SUCCEEDED" and found["visited"] == total
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
@@ -255,4 +311,10 @@ def cancel(recording, parameters):
         return Finding(False, expected, "the goal never ended", at)
     counts = {run.nearest("cancelled", at, near)[0] for near in (0.08, 0.12, NEAR)}
     measured = f"{found['status']}, visited = {found['visited']}"
-    return Finding(found["status"] == "CANCELED" and found["visited"] in counts, expected, measured, found["at"])
+    why = ""
+    if found["status"] != "CANCELED":
+        called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
+        why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
+    elif found["visited"] not in counts:
+        why = f"visited is {found['visited']}, but the robot had been at {min(counts)} of the waypoints when it was cancelled"
+    return Finding(not why, expected, measured, found["at"], explanation=why)

@@ -108,6 +108,11 @@ def lidar_frame(recording, parameters):
         measured = f"the transform says x = {seen[0]:.2f}, y = {seen[1]:.2f}, z = {seen[2]:.2f} m"
         inverted = math.dist([-each for each in seen], MOUNT) < 0.005
         why = "the transform is inverted: parent and child are swapped" if inverted else ""
+        signs = [
+            name for name, one, other in zip("xyz", seen, MOUNT, strict=True) if abs(one + other) < 0.005 < abs(one)
+        ]
+        if signs and not inverted:
+            why = f"the sign of {' and '.join(signs)} is wrong"
         return Finding(False, expected, measured, explanation=why)
     return Finding(False, expected, "nobody publishes a static transform between base_link and lidar_link")
 
@@ -162,4 +167,11 @@ def parks(recording, parameters):
         return Finding(False, expected, f"the run ended after {x.times[-1] / 1e9:.1f} s")
     worst = last[np.argmax(np.abs(last - wanted))]
     right = abs(worst - wanted) <= tolerance
-    return Finding(bool(right), expected, f"{worst:.2f} m")
+    why = ""
+    for shift, words in (
+        (MOUNT[0], "the distance is measured from the lidar, and is asked for from base_link"),
+        (-MOUNT[0], "the place of the lidar on the cart is taken with the wrong sign"),
+    ):
+        if not right and abs(worst - wanted - shift) <= tolerance:
+            why = f"it stands {abs(shift):g} m too {'near' if shift < 0 else 'far'}: {words}"
+    return Finding(bool(right), expected, f"it stood {worst:.2f} m from the wall", explanation=why)

@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import shutil
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 
-from gz_course.grader.course_folder.material import material, material_files
+from gz_course.grader.course_folder.material import material, material_files, plain_files
 from gz_course.grader.course_folder.readme import FROM_A_WHEEL, readme
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import exercise_names, find_exercise
 from gz_course.grader.exercise.bundle import write
+from gz_course.grader.exercise.exercise import is_below
 from gz_course.grader.exercise.pristine import STARTERS
+from gz_course.grader.process.whole_file import write_whole
 from gz_course.grader.tools.notebook_outputs import as_committed
 
 RECORD = ".course.json"
@@ -52,7 +53,7 @@ def handed_out(*, solutions: bool = False) -> dict[str, bytes]:
         private = root / SOLUTIONS
         if not private.is_dir():
             raise UsageError("an installed course has no solutions; run `course init --with-solutions` from a checkout")
-        files |= {f"{SOLUTIONS}/{p.relative_to(private).as_posix()}": p.read_bytes() for p in _below(private)}
+        files |= {f"{SOLUTIONS}/{p.relative_to(private).as_posix()}": p.read_bytes() for p in plain_files(private)}
     return files
 
 
@@ -137,15 +138,11 @@ def _read_record(folder: Path) -> dict[str, str]:
             f"{folder} was made by version {made_by}, and {version(DISTRIBUTION)} is installed: "
             f"`pip install --upgrade {DISTRIBUTION}` first"
         )
-    return {name: digest for name, digest in files.items() if _is_below(name)}
+    return {name: digest for name, digest in files.items() if is_below(name)}
 
 
 def _order(number: str) -> list[int]:
     return [int(part) for part in number.split(".") if part.isdigit()]
-
-
-def _is_below(name: str) -> bool:
-    return not Path(name).is_absolute() and ".." not in Path(name).parts
 
 
 def _digest(name: str, content: bytes) -> str:
@@ -156,18 +153,11 @@ def _digest(name: str, content: bytes) -> str:
 
 
 def _replace(path: Path, content: bytes) -> None:
-    """Write a file at once: an update that is interrupted leaves the old one or the new one."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.part")
-    part.write_bytes(content)
-    os.replace(part, path)  # noqa: PTH105
+    write_whole(path, content)
 
 
 def _record(folder: Path, files: dict[str, bytes]) -> None:
     digests = {name: _digest(name, content) for name, content in sorted(files.items())}
     record = {"version": version(DISTRIBUTION), "files": digests}
     _replace(folder / RECORD, (json.dumps(record, indent=1) + "\n").encode())
-
-
-def _below(folder: Path) -> list[Path]:
-    return [path for path in sorted(folder.rglob("*")) if path.is_file() and "__pycache__" not in path.parts]

@@ -25,8 +25,11 @@ def begun(root: Path) -> list[str]:
 
 
 def _is_begun(exercise: Exercise) -> bool:
-    places = {name: exercise.folder / name for name in exercise.parts}
-    return any(path.is_file() and path.read_bytes() != pristine(exercise)[name] for name, path in places.items())
+    there = {name: path.read_bytes() for name in exercise.parts if (path := exercise.folder / name).is_file()}
+    if not there:
+        return False
+    starter = pristine(exercise)
+    return any(content != starter[name] for name, content in there.items())
 
 
 def install_command(root: Path, wheel: str | None) -> str:

@@ -157,7 +157,7 @@ def load_exercise(folder: Path) -> Exercise:
     )
     if Path(exercise.file).name != exercise.file:
         manifest.refuse("file", "the name of a file, without folders")
-    if any(not _is_below(name) for name in exercise.files) or len(set(exercise.parts)) < len(exercise.parts):
+    if any(not is_below(name) for name in exercise.files) or len(set(exercise.parts)) < len(exercise.parts):
         manifest.refuse("files", "paths of further files below the exercise's folder, each once")
     for table in (run, manifest):
         table.end()
@@ -167,7 +167,8 @@ def load_exercise(folder: Path) -> Exercise:
     return exercise
 
 
-def _is_below(name: str) -> bool:
+def is_below(name: str) -> bool:
+    """Return whether a name is that of a file below the folder it is relative to, in its one spelling."""
     path = PurePosixPath(name)
     return bool(path.parts) and not path.is_absolute() and ".." not in path.parts and str(path) == name
 

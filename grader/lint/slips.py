@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.lint import unreached
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
@@ -27,7 +28,7 @@ def slips(content: bytes) -> Places:
 
 
 def _places(tree: ast.Module) -> Places:
-    found = [place for look in LOOKS for place in look(tree)]
+    found = [place for look in (*LOOKS, *unreached.LOOKS) for place in look(tree)]
     return [{"line": line, "said": said} for line, said in found[:MOST]]
 
 
@@ -145,6 +146,12 @@ def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
                 yield value.lineno, "this text holds {...} but has no f before its quotes, so it is sent as it stands"
 
 
+def strengths(tree: ast.AST) -> Iterator[Place]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and node.attr == "intensities":
+            yield node.lineno, "intensities are how strong the echoes are; how far the points are [m] is in ranges"
+
+
 def stray_methods(tree: ast.AST) -> Iterator[Place]:
     """Find a function with the parameter self that stands outside of a class, because of its indentation."""
     owned = {id(node) for each in ast.walk(tree) if isinstance(each, ast.ClassDef) for node in each.body}
@@ -204,5 +211,5 @@ def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
 
 LOOKS = (
     constructors, main_not_called, called_callbacks, periods, not_called, decimal_commas, sets_for_numbers,
-    strings_with_braces, stray_methods, blocking, waits_for_transforms,
+    strings_with_braces, strengths, stray_methods, blocking, waits_for_transforms,
 )  # fmt: skip

@@ -16,8 +16,9 @@ CLOCKS = frozenset({"get_clock", "stamp", "clock", "monotonic", "time", "Clock",
 
 
 def time_reckoning(content: bytes) -> Places:
-    """Return `line`, `code` and `fault` (`ticks`, `nanosec` or `sec`) of each such place; nothing if it is not Python.
+    """Return `line`, `code` and `fault` (`ticks`, `restart`, `nanosec`, `sec`) of each such place.
 
+    A file that is not Python has none.
     Counted ticks are reported only if the file reads no clock: a counter may well serve something else.
     """
     return places_in(content, _places)
@@ -26,6 +27,7 @@ def time_reckoning(content: bytes) -> Places:
 def _places(tree: ast.Module) -> Places:
     names = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     found = [place for node in ast.walk(tree) if (place := _part(node, names))]
+    found += [place for function in _functions(tree) for place in _restarted(function)]
     if not names & CLOCKS:
         found += [place for function in _functions(tree) for place in _counted(function)]
     return sorted(found, key=lambda place: place["line"])[:MOST]
@@ -47,6 +49,24 @@ def _counted(function: ast.FunctionDef) -> list[dict[str, Any]]:
         if id(node) not in looped and (target := _adds(node)) is not None
         if isinstance(target, ast.Attribute) or (isinstance(target, ast.Name) and target.id in kept)
     ]
+
+
+def _restarted(function: ast.FunctionDef) -> list[dict[str, Any]]:
+    """Return where a function sets an attribute to a time without a condition and then takes it from that time."""
+    found = []
+    for node in function.body:
+        if not isinstance(node, ast.Assign) or len(node.targets) != 1 or not isinstance(node.targets[0], ast.Attribute):
+            continue
+        start, now = ast.unparse(node.targets[0]), ast.unparse(node.value)
+        if any(
+            isinstance(each, ast.BinOp)
+            and isinstance(each.op, ast.Sub)
+            and (ast.unparse(each.left), ast.unparse(each.right)) == (now, start)
+            and each.lineno > node.lineno
+            for each in ast.walk(function)
+        ):
+            found.append(_place(node, "restart"))
+    return found
 
 
 def _adds(node: ast.AST) -> ast.expr | None:

@@ -20,7 +20,17 @@ from gz_course.grader.exercise.pristine import STARTERS
 
 CHECKOUT = Path(__file__).parents[2]
 CODE = ("sim", "grader", "public")
-FILES = ("pyproject.toml", "constraints.txt", "LICENSE", ".gitignore")
+FILES = (
+    "pyproject.toml",
+    "constraints.txt",
+    "LICENSE",
+    ".gitignore",
+    "docs/windows_and_mac.md",
+    "Dockerfile",
+    ".dockerignore",
+    *(f".devcontainer/{name}" for name in ("devcontainer.json", "create.sh", "attach.sh")),
+    *(f".binder/{name}" for name in ("runtime.txt", "postBuild")),
+)
 # For authors only. The scaffold of an exercise holds its solution.
 AUTHORS_ONLY = (
     str(CHAPTER_RULES),
@@ -99,6 +109,7 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
                     (copy / inside).parent.mkdir(parents=True, exist_ok=True)
                     shutil.copy(path, copy / inside)
     for name in FILES:
+        (copy / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(code / name, copy / name)
     for exercise in exercises:
         for name in exercise.parts:

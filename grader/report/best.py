@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import course_root
+from gz_course.grader.process.whole_file import write_whole
 
 if TYPE_CHECKING:
     from gz_course.grader.report.report import Report
@@ -76,12 +77,9 @@ def keep_best(report: Report, folder: Path) -> None:
     before.add(path, {report.exercise: report.max_score})
     if report.score.points < before.scores.get(report.exercise, 0.0):
         return
-    part = path.with_name(f"{BEST}.{os.getpid()}.part")
     try:
-        part.write_text(report.as_json(), encoding="utf-8")
-        part.replace(path)
+        write_whole(path, report.as_json().encode())
     except OSError as error:
-        part.unlink(missing_ok=True)
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
 
 

@@ -270,8 +270,24 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
                     f"had published anything on {topic}. rclpy.spin(node) keeps a node alive; rclpy.spin_once(node) "
                     "waits for one event only."
                 )
-            return f"Your node has a publisher on {topic} but never published a message."
+            return f"Your node has a publisher on {topic} but never published a message{_unheard(facts)}."
     return ""
+
+
+def _unheard(facts: dict[str, Any]) -> str:
+    """Return the end of a sentence on why a node publishes nothing, as far as its subscriptions tell."""
+    own = {(e["topic"], e["node"]) for e in _of(facts, "publisher")}
+    for e in _of(facts, "subscription"):
+        others = {node for topic, node in own if topic == e["topic"]} - {e["node"]}
+        if (e["topic"], e["node"]) in own and not others and e["topic"] not in facts.get("offered", {}):
+            return f": it subscribes to {e['topic']} itself, where nobody else publishes, so that callback never runs"
+    heard = [e["topic"] for e in _of(facts, "subscription") if e["topic"] in facts.get("offered", {})]
+    if not heard:
+        return ""
+    return (
+        f", although it hears {heard[0]}: a condition before publish() never holds, or an error is caught, such as "
+        "that of a transform between frames that do not exist"
+    )
 
 
 def _too_early(facts: dict[str, Any], topic: str) -> str:

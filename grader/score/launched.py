@@ -13,6 +13,7 @@ from typing import Any
 
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.launch_errors import launch_meaning
 
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
 STARTED = re.compile(r"^\[INFO\] \[[^\]]+-\d+\]: process started with pid")
@@ -118,7 +119,9 @@ def launch_fault(recording: Recording) -> str:
     """Return one sentence on why the launch as a whole failed; empty if it did not."""
     facts = launch_facts(recording)
     if error := facts.get("error", ""):
-        return "The launch failed: " + shown(PLACE.sub(_place_in_words, error), 400)
+        said = "The launch failed: " + shown(PLACE.sub(_place_in_words, error), 400)
+        why = launch_meaning(error)
+        return f"{said}{'' if said.endswith('.') else '.'} What that means: {why}." if why else said
     if facts and not facts["running"] and facts["exit_code"]:
         return f"The launch itself ended with exit code {facts['exit_code']}."
     return ""

@@ -28,6 +28,18 @@ MEANINGS = (
         "a message takes its fields by their names, as String(data='...') does",
     ),
     (
+        re.compile(r"AttributeError: 'Subscription' object has no attribute 'publish'"),
+        "a subscription only receives messages; create_publisher(TYPE, '/topic', 10) makes what publishes",
+    ),
+    (
+        re.compile(r"AttributeError: 'Publisher' object has no attribute '(\w+)'"),
+        "a publisher has publish(message) and no {0}; what is received comes to the callback of a subscription",
+    ),
+    (
+        re.compile(r"TypeError: descriptor '__init__' requires a 'super' object"),
+        "brackets are missing behind super: super().__init__('NODE_NAME')",
+    ),
+    (
         re.compile(
             r"AttributeError: '(\w+)' object has no attribute '_(?:default_callback_group|logger|clock|parameters)'"
         ),
@@ -96,6 +108,10 @@ MEANINGS = (
     (
         re.compile(r"\bInvalidArgumentException: Invalid argument .* passed to"),
         "names of frames are not empty and do not begin with a slash",
+    ),
+    (
+        re.compile(r"RCLError: .*(?:context is invalid|context is not valid)|InvalidHandle|cannot use Destroyable"),
+        "rclpy.shutdown(), or destroy_node(), was called before: nothing can be published or read after it",
     ),
     (
         re.compile(r"NotInitializedException"),
@@ -228,8 +244,9 @@ MEANINGS = (
     ),
     (
         re.compile(
-            r"AttributeError: '(?!Twist|LaserScan|String|Float|Odometry|Vector3|Header)(?=[A-Z])(\w+)' object has no "
-            r"attribute '(\w+)'"
+            r"AttributeError: '(?!(?:Twist|LaserScan|String|Float\d+|Odometry|Vector3|Header|Subscription|Publisher|"
+            r"Timer|Clock|Time|Duration|Parameter|Point|Quaternion|Pose|Image|Imu|Range|Buffer)')(?=[A-Z])(\w+)' "
+            r"object has no attribute '(\w+)'"
         ),
         "self.{1} is not set when it is used: set it in __init__ before timers and callbacks, spelt the same way",
     ),

@@ -43,6 +43,7 @@ from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.sandbox import ros_environment
 from gz_course.grader.run.sandbox.resource_monitor import descendants
+from gz_course.sim import jupyter_proxy
 from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
@@ -246,7 +247,10 @@ class Playground:
         It is a program like those of `start`, and a further call ends it.
         """
         from gz_course.grader.tools.live_frame import LiveFrame
+        from gz_course.sim.rviz2.inline import NOT_HERE
 
+        if jupyter_proxy.is_between():
+            return LiveFrame(f"What ROS says on {', '.join(topics) or 'all topics'}: {NOT_HERE}.")
         program = self.start(f"{WATCH} {shlex.join(topics)}", instead_of=WATCH)
         try:
             address = ADDRESS.search(program.wait_for(WATCH_READY))

@@ -208,7 +208,10 @@ def _entry(file_name: str, node: yaml.Node, findings: list[Finding], lazy: bool)
         if key is None or key not in (*KEYS, *SERVICE_KEYS):
             findings.append(Finding(here, unknown_key(key), tolerated=True))
         elif key in first_line:
-            sentence = f"'{key}' is given twice (first in line {first_line[key]}, which counts); keep one"
+            sentence = (
+                f"'{key}' is given twice (first in line {first_line[key]}, which counts); keep one, or "
+                "write '- ' before it if another bridge begins here"
+            )
             findings.append(Finding(here, sentence, tolerated=True))
         else:
             first_line[key] = key_node.start_mark.line + 1

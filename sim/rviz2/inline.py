@@ -16,6 +16,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from gz_course.sim import jupyter_proxy
+
+NOT_HERE = "a frame that moves needs a browser on the machine where the notebook runs"
 READY = "Ctrl-C ends it"
 
 
@@ -37,10 +40,13 @@ class Frame:
 
     def _repr_html_(self) -> str:
         words, address = html.escape(self.words), html.escape(self.address)
-        picture = ""
+        picture = image = ""
         if self.still:
             data = base64.b64encode(self.still).decode()
             image = f'<img alt="{words}" style="max-width:100%" src="data:image/png;base64,{data}">'
+        if jupyter_proxy.is_between():  # Rerun's page asks for its data at an address of this machine
+            return f"<figure style='margin:0'>{image}<figcaption>{words} ({NOT_HERE})</figcaption></figure>"
+        if image:
             picture = f"<details><summary>as a still picture</summary>{image}</details>"
         return (
             f'<figure style="margin:0"><iframe src="{address}" title="{words}" width="100%" height="{self.height}" '

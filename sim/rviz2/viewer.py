@@ -9,6 +9,7 @@ Source: `rerun --help` of rerun-sdk 0.41
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 import os
 import secrets
 import signal
@@ -44,11 +45,12 @@ class ViewerError(Exception):
 
 def binary() -> Path:
     """Return the viewer's executable file. Raises ViewerError if it is not installed."""
-    try:
-        import rerun_cli
-    except ImportError:
-        raise ViewerError("Rerun's viewer is not installed; `pip install rerun-sdk` brings it") from None
-    return Path(rerun_cli.__file__).parent / "rerun"
+    spec = importlib.util.find_spec("rerun_cli")
+    folders = spec.submodule_search_locations or [] if spec else []
+    for path in (Path(folder) / "rerun" for folder in folders):
+        if path.is_file():
+            return path
+    raise ViewerError("Rerun's viewer is not installed; `pip install --force-reinstall rerun-sdk` brings it")
 
 
 def has_display() -> bool:

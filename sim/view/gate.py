@@ -160,7 +160,9 @@ class Gate:
         if not rest:
             return _response(HTTPStatus.FOUND, "", {"Location": f"/{self._token}/"})
         origin = request.headers.get("Origin")
-        if origin is not None and urlsplit(origin).netloc != request.headers.get("Host"):
+        # A proxy that asks under its own name puts that of the page into X-Forwarded-Host, which no page can set.
+        hosts = {request.headers.get("Host"), request.headers.get("X-Forwarded-Host")}
+        if origin is not None and urlsplit(origin).netloc not in hosts:
             return _response(HTTPStatus.FORBIDDEN, "Another page asks for this one.\n")
         if rest[0] == "drop":
             return _response(HTTPStatus.FORBIDDEN, "Models come into a world with the panel Resource Spawner.\n")

@@ -17,6 +17,8 @@ import webbrowser
 from collections.abc import Callable, Mapping
 from types import TracebackType
 
+from gz_course.sim.jupyter_proxy import reachable
+
 _END_S = 3.0
 """Time [s] for the process to end after each of stdin's end, SIGTERM and SIGKILL."""
 
@@ -59,7 +61,7 @@ class View:
             env=None if environment is None else dict(environment),
         )
         self.address = ""
-        """The address of the page with its token; empty until it listens."""
+        """The address of the page with its token, as the user's browser reaches it; empty until it listens."""
         self.error = ""
         """Why there is no view."""
         self._once = ""
@@ -84,7 +86,8 @@ class View:
             if line.startswith("! "):
                 self.error = line[2:].strip()
             elif not self.address:
-                self.address, _, self._once = line.strip().partition(" ")
+                address, _, self._once = line.strip().partition(" ")
+                self.address = reachable(address)
                 self._said.set()
                 if self._on_ready is not None:
                     self._on_ready(self)

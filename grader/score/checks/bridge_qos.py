@@ -31,7 +31,14 @@ def bridge_qos(recording: Recording, parameters: Table) -> Finding:
         offer = bridge.publisher_qos
         assert offer is not None
         if not low <= offer.depth <= high:
-            return Finding(False, expected, f"{bridge.place}: {topic} keeps {offer.depth} messages (publisher_queue)")
+            other = any("'subscriber_queue' changes" in each["sentence"] for each in recording.facts().get("lint", []))
+            why = (
+                "subscriber_queue is the queue of a bridge that listens in ROS; this one publishes there"
+                if other
+                else ""
+            )
+            measured = f"{bridge.place}: {topic} keeps {offer.depth} messages (publisher_queue)"
+            return Finding(False, expected, measured, explanation=why)
         if reliability and offer.reliability != reliability:
             return Finding(False, expected, f"{bridge.place}: {topic} is offered as {offer.reliability}")
     return Finding(True, expected, "so it does")

@@ -69,7 +69,7 @@ def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
         if (bridge.ros_topic, bridge.gz_topic) == (gz, ros):
             return f"{bridge.place}: the names are the wrong way round: {gz} is Gazebo's name, {ros} is that of ROS"
         if bridge.gz_topic == gz:
-            return f"{bridge.place}: {gz} is called {bridge.ros_topic} in ROS here; the node uses {ros}"
+            return f"{bridge.place}: Gazebo's {gz} is called {bridge.ros_topic} in ROS here; the node uses {ros}"
     near = nearest_name(ros, [bridge.ros_topic for bridge in made], 0.8)
     return f"no bridge has the ROS topic {ros}" + (f"; is it '{near}'?" if near else "")
 

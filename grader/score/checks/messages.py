@@ -20,7 +20,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import texts as texts_of
-from gz_course.grader.score.explanations.texts import difference, wrong_moment
+from gz_course.grader.score.explanations.texts import difference, too_many, wrong_moment
 from gz_course.grader.score.steps import told
 
 LONGEST_QUOTE = 60  # characters of a message's text that are quoted
@@ -64,6 +64,8 @@ def messages(recording: Recording, parameters: Table) -> Finding:
         why = next((said for text in texts if (said := difference(text or "", says))), "")
     elif not passed and window is not None:
         why = wrong_moment(times, (window[0], window[1]))
+    elif not passed and counts.sum() > most:
+        why = too_many(times, recording.ended_s)
     return Finding(passed, expected, measured, round(at, 3), timing=window is not None, explanation=why)
 
 

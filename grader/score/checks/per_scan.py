@@ -82,11 +82,11 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     asked = scans(recording, topic, what)
     if parameters.has("signal"):
         signal = parameters.text("signal")
-        given, printed, other = _messages(recording, signal), "", ""
+        given, printed, other, odd = _messages(recording, signal), "", "", ""
         not_finite = len(recording.signal(f"{signal}/not_finite"))
         where = f"on {signal}"
     else:
-        given, other = _log_answers(recording, parameters.pattern("log"))
+        given, other, odd = _log_answers(recording, parameters.pattern("log"))
         printed = not_logged(recording, parameters.pattern("log"))
         not_finite = 0
         where = "in the node's log"
@@ -121,6 +121,9 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
         return Finding(passed, expected, measured + wrong, None if passed else at)
     infinite = recording.signal(f"{signal}/not_finite").times / 1e9 if parameters.has("signal") else np.empty(0)
     why = explain(_asked(recording, topic, what, tolerance, asked, given + [(float(t), np.nan) for t in infinite]))
+    if odd:
+        comma = ", a decimal comma" if re.fullmatch(r"-?\d+,\d+", odd) else ""
+        why = f"{shown(odd, 40)!r} in the log is no number{comma}: a number has digits and a decimal point"
     return Finding(False, expected, measured + wrong, at, explanation=why)
 
 
@@ -162,17 +165,18 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
     return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True))
 
 
-def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], str]:
-    """Return all answers in the log, and the first line without an answer."""
-    answers, other = [], ""
+def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], str, str]:
+    """Return all answers in the log, the first line without an answer, and the first answer that is no number."""
+    answers, other, odd = [], "", ""
     for at, text, logged in log_lines(recording):
         if not logged:
             continue
         if match := pattern.search(text):
             answers.append((at, _number(match.group(1))))
+            odd = odd or (match.group(1) if np.isnan(answers[-1][1]) and match.group(1).lower() != "nan" else "")
         else:
             other = other or text
-    return answers, other
+    return answers, other, odd
 
 
 def _number(text: str) -> float:

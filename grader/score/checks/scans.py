@@ -75,6 +75,14 @@ def _why_none(recording: Recording, topic: str) -> str:
     """Return why no scan came: no bridge, its direction or type is wrong, or nothing publishes in Gazebo."""
     made = [bridge for bridge in bridges(recording) if bridge.ros_topic == topic]
     if not made:
+        other = next((each for each in bridges(recording) if each.ros_type == TYPE), None)
+        if other is not None and other.ros_topic != other.gz_topic:
+            return f"{other.place}: the scans come to ROS as {other.ros_topic}, not as {topic}"
+        if other is not None:
+            return (
+                f"no bridge has the ROS topic {topic}; the scans come to ROS as {other.ros_topic}, their name in "
+                f"Gazebo: a remapping to {topic} is missing, or its two names are exchanged: (from, to)"
+            )
         return f"no bridge has the ROS topic {topic}"
     bridge = made[0]
     if bridge.ros_type != TYPE:

@@ -118,6 +118,8 @@ def _publisher(said: str, link: Link, facts: dict[str, Any]) -> str:
         return f"{name} listens to {link.ros_topic}; it does not publish there"
     if name in nodes:
         return f"{name} is a node, but it does not publish on {link.ros_topic}"
+    if name == "parameter_bridge" or name.endswith(".py"):
+        return f"{name} is a program; the node that it runs may have another name: ros2 node list names the nodes"
     return f"no node called {name} is in the ROS graph, whose nodes ros2 node list names; Gazebo itself is not in it"
 
 

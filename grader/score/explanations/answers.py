@@ -27,8 +27,14 @@ from gz_course.grader.registry import modules
 FEWEST = 4  # answers; fewer may fit by chance
 NEARLY_ALL = 0.9
 LAST = 3
+MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"  # statistics of a scan
+LENGTHS = (MINIMUM, MEAN)
 MOST = 2  # explanations that are named
 MOST_WRONG = 0.8  # of all answers, where some are right
+
+
+def nearest_ray(row: np.ndarray, low: float, high: float) -> int:
+    return int(np.where((row > low) & (row < high), row, np.inf).argmin())
 
 
 @dataclass(frozen=True)
@@ -72,6 +78,35 @@ class Asked:
     tolerance: float
     of: Callable[[np.ndarray], float] = field(default=lambda valid: float(valid.min()))  # the statistic of valid ranges
     scans: Scans | None = None
+
+    @property
+    def unknown(self) -> np.ndarray:
+        """Return no answer, NaN, to every question: the prediction of a function that cannot tell."""
+        return np.full(len(self.truth), np.nan)
+
+    @property
+    def nearest(self) -> np.ndarray:
+        """Return the index of the ray with the smallest valid range, for each scan."""
+        return self.each(nearest_ray)
+
+    def each(self, value: Callable[[np.ndarray, float, float], float]) -> np.ndarray:
+        """Return `value(ranges, low, high)` for every scan; NaN where it is not defined."""
+        return self.unknown if self.scans is None else self.scans.each(value)
+
+    def of_rows(self, value: Callable[[np.ndarray], float]) -> np.ndarray:
+        return self.each(lambda row, low, high: float(value(row)))
+
+    def of_valid(self, value: Callable[[np.ndarray], float]) -> np.ndarray:
+        return self.each(lambda row, low, high: float(value(row[(row > low) & (row < high)])))
+
+    def over(self, choice: Callable[[np.ndarray, float, float], np.ndarray]) -> np.ndarray:
+        """Return the statistic that is asked for over the chosen ranges of each scan."""
+        return self.each(lambda row, low, high: self.of(choice(row, low, high)))
+
+    def met(self, answers: np.ndarray) -> int:
+        """Return how many of the given answers these predict."""
+        with np.errstate(invalid="ignore"):
+            return int(np.sum(np.abs(answers - self.given) <= self.tolerance))
 
 
 @dataclass(frozen=True)
@@ -127,7 +162,8 @@ def explain(asked: Asked) -> str:
         warnings.simplefilter("ignore", RuntimeWarning)  # such as the mean of no ranges, which is NaN
         found = _fitting(asked, wrong)
         told = f"your answers are {', or '.join(found)}" if found else _where_wrong(asked, wrong)
-    return "; ".join(filter(None, (told, said)))
+    both = (said, told) if told.startswith("where") else (told, said)
+    return "; ".join(filter(None, both))
 
 
 def _fitting(asked: Asked, wrong: np.ndarray) -> list[str]:

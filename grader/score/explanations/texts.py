@@ -1,4 +1,4 @@
-"""Explanations of a text that is nearly right, and of a message at the wrong moment."""
+"""Explanations of a text that is nearly right, of a message at the wrong moment, and of too many messages."""
 
 from __future__ import annotations
 
@@ -55,3 +55,17 @@ def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
         if abs(first - factor * middle) <= 0.06 * factor * middle:
             return f"the message came after {first:.2f} s, {words} the {middle:g} s that are asked for"
     return f"the message came too {'soon' if first < start else 'late'}"
+
+
+def too_many(times: np.ndarray, ended: float) -> str:
+    """Return how messages that are too many follow each other, given their times and the end of the run [s]."""
+    if len(times) < 2:
+        return ""
+    gaps = np.diff(times)
+    if (together := int(np.sum(times - times[0] < 1e-3))) > 1:
+        return f"publish() was called {together} times at the same moment"
+    if np.ptp(gaps) > 0.05 * gaps[0]:
+        return ""
+    if times[-1] + gaps[0] > ended:
+        return f"a message came every {gaps[0]:.2f} s until the end: a timer goes on firing"
+    return f"the messages came {gaps[0]:.2f} s apart and ceased: two timers, or a count, send them"

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from types import ModuleType
 
-from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 from gz_course.sim.launch.ament_prefix import packages_with_launch_file
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.launch_description import LaunchDescription
@@ -57,7 +57,7 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
         own = [name for name, value in vars(module).items() if getattr(value, "__module__", "") == module.__name__]
         raise InvalidPythonLaunchFileError(
             f"launch file at '{python_launch_file_path}' does not contain the required function "
-            f"'{_FUNCTION}()'{did_you_mean(_FUNCTION, own)}"
+            f"'{_FUNCTION}()'{_instead(own)}"
         )
     description = function()
     if not isinstance(description, LaunchDescription):
@@ -69,6 +69,12 @@ def get_launch_description_from_python_launch_file(python_launch_file_path: str)
             f"LaunchDescription{hint}"
         )
     return description
+
+
+def _instead(own: list[str]) -> str:
+    """Return the end of a sentence on a function whose name is nearly the required one."""
+    near = nearest_name(_FUNCTION, own)
+    return f"; its function '{near}' has another name" if near else ""
 
 
 def _described(value: object) -> str:

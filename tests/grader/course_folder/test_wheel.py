@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -10,6 +11,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+
+LARGEST = 700  # [MB] of an environment for grading
 
 pytestmark = [pytest.mark.proof, pytest.mark.timeout(1800)]
 
@@ -78,3 +81,28 @@ def test_installed_from_the_file_it_grades_as_the_clone_does(built, root, tmp_pa
     reports = [json.loads((folder / "out.json").read_text()) for folder in (mine, in_clone)]
     assert reports[0]["score"] == reports[1]["score"] == 100
     assert reports[0]["truth_sha256"] == reports[1]["truth_sha256"]
+
+    # What grading never opens can go; the rest grades as before.
+    code, told = run(bin / "python", "-m", "gz_course.grader.tools.slim", cwd=mine)
+    assert code == 0 and "MB removed" in told, told
+    code, told = run("du", "-sm", here / ".venv", cwd=mine)
+    assert int(told.split()[0]) <= LARGEST
+    code, told = run(bin / "course", *words, "--out", "runs", cwd=mine)
+    assert code == 0, told
+    assert json.loads((mine / "out.json").read_text())["truth_sha256"] == reports[1]["truth_sha256"]
+
+
+@pytest.mark.parametrize("version", ["3.8", "3.9", "3.10", "3.15"])
+def test_on_another_python_pip_succeeds_and_the_command_says_where_to_go(built, tmp_path, version):
+    """With a real one: pyenv's, or that of the system."""
+    pythons = [*Path.home().glob(f".pyenv/versions/{version}.*/bin/python"), shutil.which(f"python{version}")]
+    if not (python := next(filter(None, pythons), None)):
+        pytest.skip(f"there is no Python {version} here")
+    wheel = next(path for path in built[0] if path.suffix == ".whl")
+    assert run(python, "-m", "venv", tmp_path / ".venv", cwd=tmp_path)[0] == 0
+    code, told = run(tmp_path / ".venv/bin/pip", "install", wheel, cwd=tmp_path)
+    assert code == 0, told
+    code, told = run(tmp_path / ".venv/bin/course", "init", "mine", cwd=tmp_path)
+    assert code == 2 and told.count("\n") == 1
+    assert told.startswith(f"course: the course does not run on Python {version}: it needs Linux")
+    assert Path(told.split("; see ")[1].strip()).read_text().startswith("# Windows, Mac, and other machines")

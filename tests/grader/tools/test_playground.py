@@ -289,3 +289,6 @@ def test_what_ros_says_is_shown_where_the_program_says_so(room, tmp_path, monkey
     script.write_text("print('course: there is no viewer')")
     frame = room.watch()
     assert "there is no viewer" in repr(frame) and not frame.address and room.running == []
+    monkeypatch.setenv("COURSE_PROXY", "/")
+    frame = room.watch("/scan")
+    assert "browser on the machine" in repr(frame) and not frame.address and room.running == []

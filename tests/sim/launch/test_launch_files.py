@@ -244,7 +244,7 @@ def test_arguments_arrive_as_they_were_given(given_values, defaults):
         (HEAD + "    return LaunchDescription([robot])\n", "{}:10: NameError: name 'robot' is not defined"),
         ("def helper():\n    1 / 0\nhelper()\n", "{}:2: ZeroDivisionError: division by zero"),
         ("", "'{}' does not contain the required function 'generate_launch_description()'"),
-        ("def generate_launch_descripton():\n    pass\n", "did you mean 'generate_launch_descripton'?"),
+        ("def generate_launch_descripton():\n    pass\n", "its function 'generate_launch_descripton' has another name"),
         (
             HEAD + "    LaunchDescription([])\n",
             "returned None of type NoneType, not a LaunchDescription; its `return` is missing",

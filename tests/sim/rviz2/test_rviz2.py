@@ -130,11 +130,14 @@ def test_the_page_is_of_this_machine_only_and_ends_with_the_viewer(tmp_path):
     assert not child.is_running() and not viewer.is_running
 
 
-def test_a_frame_holds_page_words_and_picture():
+def test_a_frame_holds_page_words_and_picture(monkeypatch):
     frame = Frame("http://127.0.0.1:1/?url=a&b", 'the "run"', b"PNG")
     text = frame._repr_html_()
     assert 'src="http://127.0.0.1:1/?url=a&amp;b"' in text and 'alt="the &quot;run&quot;"' in text
     assert repr(frame) == 'the "run": http://127.0.0.1:1/?url=a&b'
+    monkeypatch.setenv("COURSE_PROXY", "/")  # the browser is on another machine
+    text = frame._repr_html_()
+    assert "<iframe" not in text and "<img" in text and "browser on the machine" in text
     started = []
 
     class Program:

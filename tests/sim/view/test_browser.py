@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -32,6 +33,7 @@ SIZE = {"width": 800, "height": 480}
 FLAGS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 DEADLINE = 500.0
 """Time [s] to wait for anything; without a GPU a busy machine draws a picture in many seconds."""
+USER = "/user/alice/"
 PLAY, STEP, RESET = (45, 20), (107, 20), (238, 20)
 MAGENTA = """<sdf version='1.10'><model name='sign'><static>true</static><link name='l'><visual name='v'>
 <geometry><box><size>1 1 1</size></box></geometry><material><diffuse>1 0 1 1</diffuse></material></visual></link>
@@ -67,8 +69,8 @@ def gz(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., tuple[subproce
         started.append(process)
         assert process.stderr is not None
         for line in process.stderr:
-            if found := re.search(r"http://\S+", line):
-                return process, found[0]
+            if found := re.search(r"see world '\w+' at (\S+)", line):
+                return process, found[1]
         raise AssertionError("no address was said")
 
     yield start
@@ -76,6 +78,33 @@ def gz(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., tuple[subproce
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
         process.communicate(timeout=DEADLINE)
+
+
+@pytest.fixture
+def hub(tmp_path: Path) -> Iterator[str]:
+    """A Jupyter server as JupyterHub starts it for a user, with jupyter-server-proxy; its host and port."""
+    pytest.importorskip("jupyter_server_proxy")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    options = ["--no-browser", "--allow-root", f"--port={port}", "--ip=127.0.0.1", f"--ServerApp.root_dir={tmp_path}"]
+    options += [f"--ServerApp.base_url={USER}", "--IdentityProvider.token=", "--ServerApp.port_retries=0"]
+    homes = {name: str(tmp_path) for name in ("HOME", "JUPYTER_DATA_DIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR")}
+    log = tmp_path / "jupyter.log"
+    with log.open("wb") as output:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "jupyter", "server", *options],
+            stderr=output,
+            env=os.environ | homes,
+            start_new_session=True,
+        )
+    try:
+        eventually(lambda: "is running at" in log.read_text() or server.poll() is not None, "Jupyter listens")
+        assert server.poll() is None, log.read_text()
+        yield f"localhost:{port}"
+    finally:
+        os.killpg(server.pid, signal.SIGKILL)
+        server.wait(DEADLINE)
 
 
 @pytest.fixture
@@ -198,3 +227,19 @@ def test_a_notebook_may_frame_the_page_and_a_stranger_may_not(
     assert tried == "refused", "even with the token"
     server.shutdown()
     server.server_close()
+
+
+def test_behind_jupyter_server_proxy_the_world_is_seen_and_obeys(
+    gz: Callable[..., tuple[subprocess.Popen[str], str]], hub: str, browser: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", USER)
+    _, address = gz("lidar_room.sdf")
+    assert re.fullmatch(rf"{USER}proxy/\d+/[\w-]{{32}}/", address)
+    seen = Seen(browser, f"http://{hub}{address}")
+    eventually(lambda: len(seen.where(blue)), "the robot is drawn")
+    with Node() as node:
+        stats: list[Any] = [WorldStatistics()]
+        node.subscribe(WorldStatistics, "/stats", lambda message: stats.append(message))
+        eventually(lambda: stats[-1].paused, "the world waits")
+        seen.page.mouse.click(*STEP, delay=500)
+        eventually(lambda: stats[-1].iterations == 1, "Step runs one step")

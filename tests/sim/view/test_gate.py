@@ -119,6 +119,9 @@ def test_a_websocket_opens_for_the_page_itself_only(gate: Gate) -> None:
     here, path = f"127.0.0.1:{gate.port}", f"/{token(gate)}/state?sid=1"
     with connect(f"ws://{here}{path}", origin=f"http://{here}") as opened:
         assert opened.recv(DEADLINE) == "/state?sid=1"
+    proxied = {"X-Forwarded-Host": "hub.example"}
+    with connect(f"ws://{here}{path}", origin="https://hub.example", additional_headers=proxied) as opened:
+        assert opened.recv(DEADLINE) == "/state?sid=1"
     for address, origin in [
         (f"ws://{here}{path}", "http://evil.example"),
         (f"ws://{here}{path}", "null"),

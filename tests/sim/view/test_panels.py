@@ -6,6 +6,7 @@ import threading
 import time
 import uuid
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -241,8 +242,9 @@ def test_the_tree_has_static_models_and_all_links(shown: Shown) -> None:
 
 
 @pytest.fixture
-def pictures() -> Iterator[None]:
+def pictures(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """Let panels be drawn without a browser."""
+    monkeypatch.chdir(tmp_path)  # where a context leaves its settings when it ends, as imgui.ini
     context = imgui.CreateContext()
     imgui.SetCurrentContext(context)
     ux.set_imgui_context(context)

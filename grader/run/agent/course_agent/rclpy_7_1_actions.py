@@ -68,10 +68,13 @@ def _name(end: Any) -> str:
     return found
 
 
-def _nudge_ends(monitor: ExecutorMonitor, name: str) -> None:
-    """Count the executors of this process as at work that have an end of an action."""
+def _nudge(monitor: ExecutorMonitor, flags: tuple[str, ...], name: str) -> None:
+    """Count the executors of this process as at work that have a client or a server of an action.
+
+    `flags` tells which of the two. What was sent wakes these executors, and no others.
+    """
     for node in monitor.nodes:
-        if any(hasattr(each, "course_flags") and _name(each) == name for each in node.waitables):
+        if any(getattr(each, "course_flags", None) is flags and _name(each) == name for each in node.waitables):
             nudge(monitor, node.executor)
 
 
@@ -139,7 +142,7 @@ def _watch_clients(monitor: ExecutorMonitor) -> None:
                 if client.server_is_ready():
                     monitor.count(monitor.delivered, f"request {_name(client)}/_action/{service}")
                 inner.add_done_callback(lambda future: answered.set_result(future.result()))
-                _nudge_ends(monitor, _name(client))
+                _nudge(monitor, SERVERS, _name(client))
 
             monitor.hold(send, may_ask(client, client.server_is_ready))
             return answered
@@ -185,7 +188,7 @@ def _watch_servers(monitor: ExecutorMonitor) -> None:
             def send() -> None:
                 method(handle, header, response)
                 monitor.count(monitor.delivered, f"response {name}/_action/{service}")
-                _nudge_ends(monitor, name)
+                _nudge(monitor, CLIENTS, name)
 
             monitor.hold(send)
 
@@ -201,7 +204,7 @@ def _watch_servers(monitor: ExecutorMonitor) -> None:
                 readers = server._node.count_subscribers(name)
                 method(handle, *sent)
                 monitor.count(monitor.delivered, name, readers)
-                _nudge_ends(monitor, _name(server))
+                _nudge(monitor, CLIENTS, _name(server))
 
             monitor.hold(send)
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import Asked, predicts
-
-MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
-LENGTHS = (MINIMUM, MEAN)
+from gz_course.grader.score.explanations.answers import COUNT, LENGTHS, Asked, Named, predicts
 
 
 @predicts("rounded to two decimals", only=LENGTHS)
@@ -18,6 +15,16 @@ def two_decimals(asked: Asked) -> np.ndarray:
 @predicts("rounded to one decimal", only=LENGTHS)
 def one_decimal(asked: Asked) -> np.ndarray:
     return np.round(asked.truth, 1)
+
+
+@predicts("rounded to significant digits", only=LENGTHS, rank=2)
+def significant_digits(asked: Asked) -> Named:
+    scale = 10.0 ** np.floor(np.log10(np.abs(asked.truth)))
+    candidates = [(digits, np.round(asked.truth / scale, digits - 1) * scale) for digits in (1, 2, 3)]
+    digits, answers = max(candidates, key=lambda each: asked.met(each[1]))
+    return Named(
+        f"rounded to {digits} significant digit{'s' * (digits > 1)}, as .{digits - 1}e or .{digits}g do", answers
+    )
 
 
 @predicts("cut off after two decimals", only=LENGTHS)
@@ -102,7 +109,7 @@ def negative(asked: Asked) -> np.ndarray:
 
 @predicts("the absolute value: the sign is lost")
 def absolute(asked: Asked) -> np.ndarray:
-    return np.abs(asked.truth) if (asked.truth < 0).any() else np.full(len(asked.truth), np.nan)
+    return np.abs(asked.truth) if (asked.truth < 0).any() else asked.unknown
 
 
 @predicts("the square of the right value")
@@ -118,12 +125,12 @@ def reciprocal(asked: Asked) -> np.ndarray:
 
 @predicts("the right value less range_min", only=LENGTHS)
 def less_range_min(asked: Asked) -> np.ndarray:
-    return asked.truth - asked.scans.low if asked.scans else np.full(len(asked.truth), np.nan)
+    return asked.truth - asked.scans.low if asked.scans else asked.unknown
 
 
 @predicts("the part of all rays that is valid, not their number", only=(COUNT,))
 def share(asked: Asked) -> np.ndarray:
-    return asked.truth / np.array([len(row) for row in asked.scans.rows]) if asked.scans else asked.truth * np.nan
+    return asked.truth / np.array([len(row) for row in asked.scans.rows]) if asked.scans else asked.unknown
 
 
 @predicts("the percentage of all rays that is valid, not their number", only=(COUNT,))
@@ -163,12 +170,12 @@ def rounded_up_at_one(asked: Asked) -> np.ndarray:
 
 @predicts("range_max less the right value", only=LENGTHS)
 def from_range_max(asked: Asked) -> np.ndarray:
-    return asked.scans.high - asked.truth if asked.scans else np.full(len(asked.truth), np.nan)
+    return asked.scans.high - asked.truth if asked.scans else asked.unknown
 
 
 @predicts("the right value divided by range_max", only=LENGTHS)
 def part_of_range_max(asked: Asked) -> np.ndarray:
-    return asked.truth / asked.scans.high if asked.scans else np.full(len(asked.truth), np.nan)
+    return asked.truth / asked.scans.high if asked.scans else asked.unknown
 
 
 def _scaled(asked: Asked, factor: float) -> np.ndarray:

@@ -24,9 +24,7 @@ def two_before(asked: Asked) -> np.ndarray:
 @predicts("those of three to ten scans before: they come late", rank=2)
 def long_before(asked: Asked) -> np.ndarray:
     shifted = [_before(asked.truth, count) for count in range(3, 11)]
-    with np.errstate(all="ignore"):
-        met = [np.mean(np.abs(each - asked.given) <= asked.tolerance) for each in shifted]
-    return shifted[int(np.argmax(met))]
+    return max(shifted, key=asked.met)
 
 
 @predicts("the smallest of all scans so far, not of this scan: start anew in every callback")
@@ -47,7 +45,7 @@ def average_so_far(asked: Asked) -> np.ndarray:
 @predicts("the average of all valid ranges so far, not of those of this scan alone", only=("mean",))
 def average_of_all_ranges(asked: Asked) -> np.ndarray:
     if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
+        return asked.unknown
     valid = asked.scans.valid()
     return np.cumsum([v.sum() for v in valid]) / np.cumsum([len(v) for v in valid])
 
@@ -64,22 +62,24 @@ def smoothed_over_two(asked: Asked) -> np.ndarray:
 
 @predicts("a moving average over several scans, not the value of this scan", rank=2)
 def moving_average(asked: Asked) -> np.ndarray:
-    return _best(asked, [_window(asked.truth, width, np.mean) for width in (*range(3, 11), 12, 15, 20, 25, 30, 50)])
+    return max(
+        [_window(asked.truth, width, np.mean) for width in (*range(3, 11), 12, 15, 20, 25, 30, 50)], key=asked.met
+    )
 
 
 @predicts("the smallest of the last few scans, not of this scan", rank=2)
 def smallest_of_a_few(asked: Asked) -> np.ndarray:
-    return _best(asked, [_window(asked.truth, width, np.min) for width in range(2, 11)])
+    return max([_window(asked.truth, width, np.min) for width in range(2, 11)], key=asked.met)
 
 
 @predicts("the largest of the last few scans, not the value of this scan", rank=2)
 def largest_of_a_few(asked: Asked) -> np.ndarray:
-    return _best(asked, [_window(asked.truth, width, np.max) for width in range(2, 11)])
+    return max([_window(asked.truth, width, np.max) for width in range(2, 11)], key=asked.met)
 
 
 @predicts("a median over several scans, not the value of this scan", rank=2)
 def moving_median(asked: Asked) -> np.ndarray:
-    return _best(asked, [_window(asked.truth, width, np.median) for width in (3, 5, 7, 9)])
+    return max([_window(asked.truth, width, np.median) for width in (3, 5, 7, 9)], key=asked.met)
 
 
 @predicts("a low-pass filter of the values (a part of the last answer is kept), not the value of this scan", rank=2)
@@ -90,7 +90,7 @@ def low_pass(asked: Asked) -> np.ndarray:
         for i in range(1, len(values)):
             values[i] = keep * values[i - 1] + (1 - keep) * asked.truth[i]
         filtered.append(values)
-    return _best(asked, filtered)
+    return max(filtered, key=asked.met)
 
 
 @predicts("the change since the scan before, not the value of this scan")
@@ -100,7 +100,7 @@ def change(asked: Asked) -> np.ndarray:
 
 @predicts("the answer before once more, not a new one", rank=2)
 def same_again(asked: Asked) -> np.ndarray:
-    return _before(asked.given, 1) if np.ptp(asked.given[asked.answered]) > 0 else np.full(len(asked.truth), np.nan)
+    return _before(asked.given, 1) if np.ptp(asked.given[asked.answered]) > 0 else asked.unknown
 
 
 @predicts("the time [s] of the scan")
@@ -118,7 +118,7 @@ def first_scan(asked: Asked) -> np.ndarray:
 def constant(asked: Asked) -> np.ndarray:
     values = asked.given[asked.answered & np.isfinite(asked.given)]
     if not len(values):
-        return np.full(len(asked.truth), np.nan)
+        return asked.unknown
     same = np.ptp(values) == 0 and np.ptp(asked.truth) > 3 * asked.tolerance and values[0] != 0
     known = asked.scans is not None and values[0] in (asked.scans.low[0], asked.scans.high[0], len(asked.scans.rows[0]))
     first = abs(values[0] - asked.truth[0]) <= asked.tolerance
@@ -141,10 +141,3 @@ def counter(asked: Asked) -> np.ndarray:
 def _window(truth: np.ndarray, width: int, value: object) -> np.ndarray:
     assert callable(value)
     return np.array([value(truth[max(0, i - width + 1) : i + 1]) for i in range(len(truth))], dtype=float)
-
-
-def _best(asked: Asked, candidates: list[np.ndarray]) -> np.ndarray:
-    """Return the candidate nearest to what was given."""
-    with np.errstate(all="ignore"):
-        met = [np.sum(np.abs(each - asked.given) <= asked.tolerance) for each in candidates]
-    return candidates[int(np.argmax(met))]

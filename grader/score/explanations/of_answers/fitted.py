@@ -2,31 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from gz_course.grader.score.explanations.answers import LAST, Asked, Named, predicts
+from gz_course.grader.score.explanations.answers import (
+    COUNT,
+    LAST,
+    LENGTHS,
+    MEAN,
+    MINIMUM,
+    Asked,
+    Named,
+    nearest_ray,
+    predicts,
+)
 
-MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
-LENGTHS = (MINIMUM, MEAN)
 SAMPLE = 12  # scans that are enough to find a sector; all of them confirm it
 MOST_RAYS = 720  # of a scan in which sectors are looked for
 STEPS = (0.02, 0.05, 0.2, 0.25, 0.5)  # [m]
 PERCENTILES = (5, 10, 15, 20, 25, 30, 40, 60, 70, 75, 80, 90, 95, 99)
 
 
-def _of_valid(asked: Asked, value: Callable[[np.ndarray], float]) -> np.ndarray:
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    return asked.scans.each(lambda row, low, high: float(value(row[(row > low) & (row < high)])))
-
-
 def _best(asked: Asked, candidates: Iterable[Named]) -> Named:
     """Return the candidate that meets most answers."""
-    return max(candidates, key=lambda each: int(np.sum(np.abs(each.answers - asked.given) <= asked.tolerance)))
+    return max(candidates, key=lambda each: asked.met(each.answers))
 
 
 def _ranked(valid: np.ndarray, place: int) -> float:
@@ -44,13 +46,13 @@ def _smallest_average(valid: np.ndarray, width: int) -> float:
 @predicts("a percentile of the valid ranges", only=LENGTHS, rank=LAST)
 def percentile(asked: Asked) -> Named:
     words = "the {}th percentile of the valid ranges"
-    return _best(asked, [Named(words.format(q), _of_valid(asked, partial(np.percentile, q=q))) for q in PERCENTILES])
+    return _best(asked, [Named(words.format(q), asked.of_valid(partial(np.percentile, q=q))) for q in PERCENTILES])
 
 
 @predicts("one of the smallest valid ranges", only=(MINIMUM,), rank=LAST)
 def one_of_the_smallest(asked: Asked) -> Named:
     words = "number {} of the valid ranges in the order of their size, not the smallest"
-    return _best(asked, [Named(words.format(k), _of_valid(asked, partial(_ranked, place=k))) for k in range(3, 13)])
+    return _best(asked, [Named(words.format(k), asked.of_valid(partial(_ranked, place=k))) for k in range(3, 13)])
 
 
 @predicts("the average of the smallest valid ranges", only=LENGTHS, rank=LAST)
@@ -58,7 +60,7 @@ def average_of_the_smallest(asked: Asked) -> Named:
     words = "the average of the {} smallest valid ranges"
     counts = (2, 3, 4, 5, 6, 8, 10, 15, 20, 30, 50)
     return _best(
-        asked, [Named(words.format(n), _of_valid(asked, partial(_average_of_smallest, count=n))) for n in counts]
+        asked, [Named(words.format(n), asked.of_valid(partial(_average_of_smallest, count=n))) for n in counts]
     )
 
 
@@ -66,7 +68,7 @@ def average_of_the_smallest(asked: Asked) -> Named:
 def smoothed(asked: Asked) -> Named:
     words = "the smallest of averages over {} rays side by side, not of the ranges themselves"
     widths = (2, 3, 4, 5, 7, 9, 10, 11, 15, 20)
-    return _best(asked, [Named(words.format(w), _of_valid(asked, partial(_smallest_average, width=w))) for w in widths])
+    return _best(asked, [Named(words.format(w), asked.of_valid(partial(_smallest_average, width=w))) for w in widths])
 
 
 @predicts("those of some of the rays", rank=LAST)
@@ -78,14 +80,12 @@ def every_nth_ray(asked: Asked) -> Named:
 
 def _of_chosen(asked: Asked, chosen: np.ndarray) -> np.ndarray:
     """Return the statistic that is asked for over the rays with these numbers, as far as there are such."""
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
 
     def value(row: np.ndarray, low: float, high: float) -> float:
         some = row[chosen[chosen < len(row)]]
         return asked.of(some[(some > low) & (some < high)])
 
-    return asked.scans.each(value)
+    return asked.each(value)
 
 
 @predicts("rounded to multiples", rank=2)
@@ -100,7 +100,7 @@ def multiples(asked: Asked) -> Named:
 def one_ray(asked: Asked) -> Named:
     scans = asked.scans
     if scans is None or len({len(row) for row in scans.rows}) != 1:
-        return Named("", np.full(len(asked.truth), np.nan))
+        return Named("", asked.unknown)
     table = np.array(scans.rows)
     met = np.sum(np.abs(table - asked.given[:, None]) <= asked.tolerance, axis=0)
     ray = int(met.argmax())
@@ -109,21 +109,14 @@ def one_ray(asked: Asked) -> Named:
 
 @predicts("the range opposite the nearest", only=(MINIMUM,))
 def opposite(asked: Asked) -> np.ndarray:
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-
-    def behind(row: np.ndarray, low: float, high: float) -> float:
-        nearest = np.where((row > low) & (row < high), row, np.inf).argmin()
-        return float(row[(nearest + len(row) // 2) % len(row)])
-
-    return asked.scans.each(behind)
+    return asked.each(lambda row, low, high: float(row[(nearest_ray(row, low, high) + len(row) // 2) % len(row)]))
 
 
 @predicts("those of the rays within another bound", rank=LAST)
 def another_bound(asked: Asked) -> Named:
     words = "those of the rays {} {:g} m, another bound than range_min and range_max"
     if asked.scans is None:
-        return Named("", np.full(len(asked.truth), np.nan))
+        return Named("", asked.unknown)
     limits = np.concatenate([np.arange(0.05, 2.0, 0.05), np.arange(2.0, asked.scans.high.max(), 0.5)])
     tables = np.array([_within_and_beyond(asked.statistic, valid, limits) for valid in asked.scans.valid()])
     candidates = []
@@ -177,7 +170,7 @@ def changing_slowly(asked: Asked) -> Named:
 @predicts("the right value with a number added", rank=LAST)
 def shifted(asked: Asked) -> Named:
     if np.ptp(asked.truth) <= 3 * asked.tolerance:
-        return Named("", np.full(len(asked.truth), np.nan))
+        return Named("", asked.unknown)
     number = float(np.nanmedian(asked.given - asked.truth))
     return Named(f"the right value with the same number added each time, {number:.3g}", asked.truth + number)
 
@@ -186,7 +179,7 @@ def shifted(asked: Asked) -> Named:
 def in_proportion(asked: Asked) -> Named:
     factor = float(np.nanmedian(asked.given / asked.truth))
     if np.ptp(asked.truth) <= 3 * asked.tolerance or abs(factor) <= 1e-3:
-        return Named("", np.full(len(asked.truth), np.nan))
+        return Named("", asked.unknown)
     return Named(f"the right value times the same factor each time, {factor:.4g}", asked.truth * factor)
 
 
@@ -195,14 +188,14 @@ def straight_line(asked: Asked) -> Named:
     known = asked.answered & np.isfinite(asked.given) & np.isfinite(asked.truth)
     truth, given = asked.truth[known], asked.given[known]
     if len(truth) < 6 or np.ptp(truth) <= 10 * asked.tolerance:
-        return Named("", np.full(len(asked.truth), np.nan))
+        return Named("", asked.unknown)
     order = np.argsort(truth, kind="stable")
     half = len(order) // 2
     far = order[len(order) - half :], order[:half]
     slope = float(np.median((given[far[0]] - given[far[1]]) / (truth[far[0]] - truth[far[1]])))
     offset = float(np.median(given - slope * truth))
     if abs(slope) < 1e-3 or not np.isfinite(slope * offset):
-        return Named("", np.full(len(asked.truth), np.nan))
+        return Named("", asked.unknown)
     sign = "plus" if offset > 0 else "less"
     return Named(f"{slope:.4g} times the right value {sign} {abs(offset):.4g}", slope * asked.truth + offset)
 
@@ -210,7 +203,7 @@ def straight_line(asked: Asked) -> Named:
 @predicts("those of a sector", only=(MINIMUM, MEAN, COUNT), rank=LAST)
 def sector(asked: Asked) -> Named:
     """Find the rays side by side, also across the end of a scan, whose statistic is what was answered."""
-    nothing = Named("", np.full(len(asked.truth), np.nan))
+    nothing = Named("", asked.unknown)
     known = np.flatnonzero(asked.answered & np.isfinite(asked.given))
     if asked.scans is None or not len(known) or len({len(row) for row in asked.scans.rows}) != 1:
         return nothing

@@ -6,17 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import Asked, predicts
+from gz_course.grader.score.explanations.answers import MEAN, Asked, predicts
 
 Choice = Callable[[np.ndarray, float, float], np.ndarray]
-MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
-
-
-def _over(asked: Asked, choice: Choice) -> np.ndarray:
-    """Return the statistic that is asked for over the chosen ranges of each scan."""
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    return asked.scans.each(lambda row, low, high: asked.of(choice(row, low, high)))
 
 
 def _valid(row: np.ndarray, low: float, high: float) -> np.ndarray:
@@ -25,88 +17,86 @@ def _valid(row: np.ndarray, low: float, high: float) -> np.ndarray:
 
 @predicts("those of all rays, the invalid ones (inf, -inf, nan) included")
 def all_rays(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: row)
+    return asked.over(lambda row, low, high: row)
 
 
 @predicts("those of all rays but nan: inf and -inf are included")
 def all_but_nan(asked: Asked) -> np.ndarray:
     if asked.scans is None or not any(np.isnan(row).any() for row in asked.scans.rows):
-        return np.full(len(asked.truth), np.nan)
-    return _over(asked, lambda row, low, high: row[~np.isnan(row)])
+        return asked.unknown
+    return asked.over(lambda row, low, high: row[~np.isnan(row)])
 
 
 @predicts("those of the rays above range_min: range_max was not asked about, so inf is included")
 def no_upper_bound(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: row[row > low])
+    return asked.over(lambda row, low, high: row[row > low])
 
 
 @predicts("those of the rays below range_max: range_min was not asked about, so -inf is included")
 def no_lower_bound(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: row[row < high])
+    return asked.over(lambda row, low, high: row[row < high])
 
 
 @predicts("those of the rays whose range lies between angle_min and angle_max: these are bounds of the angles [rad]")
 def bounds_of_the_angles(asked: Asked) -> np.ndarray:
     if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
+        return asked.unknown
     least, most = float(asked.scans.angle_min[0]), float(asked.scans.angle_max[0])
-    return _over(asked, lambda row, low, high: row[(row >= least) & (row <= most)])
+    return asked.over(lambda row, low, high: row[(row >= least) & (row <= most)])
 
 
 @predicts("those of the invalid rays: the condition is the wrong way round")
 def invalid_rays(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: row[~((row > low) & (row < high))])
+    return asked.over(lambda row, low, high: row[~((row > low) & (row < high))])
 
 
 @predicts("those with inf counted as range_max")
 def inf_is_range_max(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: np.where(np.isposinf(row), high, row)[~np.isneginf(row)])
+    return asked.over(lambda row, low, high: np.where(np.isposinf(row), high, row)[~np.isneginf(row)])
 
 
 @predicts("those with every range clipped to range_min and range_max: inf became range_max, -inf range_min")
 def clipped(asked: Asked) -> np.ndarray:
-    return _over(
-        asked, lambda row, low, high: np.clip(np.nan_to_num(row, nan=high, posinf=high, neginf=low), low, high)
-    )
+    return asked.over(lambda row, low, high: np.clip(np.nan_to_num(row, nan=high, posinf=high, neginf=low), low, high))
 
 
 @predicts("those with 0 in place of the ranges that are not valid")
 def zero_for_invalid(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: np.where((row > low) & (row < high), row, 0.0))
+    return asked.over(lambda row, low, high: np.where((row > low) & (row < high), row, 0.0))
 
 
 @predicts("those of the first half of the rays only")
 def first_half(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: _valid(row[: len(row) // 2], low, high))
+    return asked.over(lambda row, low, high: _valid(row[: len(row) // 2], low, high))
 
 
 @predicts("those of the second half of the rays only")
 def second_half(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: _valid(row[len(row) // 2 :], low, high))
+    return asked.over(lambda row, low, high: _valid(row[len(row) // 2 :], low, high))
 
 
 @predicts("those of every second ray only")
 def every_second_ray(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: _valid(row[::2], low, high))
+    return asked.over(lambda row, low, high: _valid(row[::2], low, high))
 
 
 @predicts("those of all rays but the first: indices begin at 0", only=(MEAN,))
 def without_the_first_ray(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: _valid(row[1:], low, high))
+    return asked.over(lambda row, low, high: _valid(row[1:], low, high))
 
 
 @predicts("those of all rays but the last: range(n) ends before n", only=(MEAN,))
 def without_the_last_ray(asked: Asked) -> np.ndarray:
-    return _over(asked, lambda row, low, high: _valid(row[:-1], low, high))
+    return asked.over(lambda row, low, high: _valid(row[:-1], low, high))
 
 
 @predicts("those of the rays ahead only, not of those all around", rank=2)
 def ahead(asked: Asked) -> np.ndarray:
     """Return the answers of the sector, of the usual ones, that fits best."""
     if asked.scans is None or asked.scans.angle_max[0] - asked.scans.angle_min[0] < np.pi:
-        return np.full(len(asked.truth), np.nan)
+        return asked.unknown
     sector = (asked.scans.angle_max[0] - asked.scans.angle_min[0]) / 2
-    best, most = np.full(len(asked.truth), np.nan), -1
+    best, most = asked.unknown, -1
     for degrees in (5, 10, 15, 20, 30, 45, 60, 90):
         for last in (0, 1):  # a slice leaves its last ray out
 
@@ -116,8 +106,8 @@ def ahead(asked: Asked) -> np.ndarray:
                 middle, half = len(row) // 2, round(len(row) / 2 * np.radians(degrees) / sector)
                 return _valid(row[middle - half : middle + half + last], low, high)
 
-            found = _over(asked, in_sector)
-            met = int(np.sum(np.abs(found - asked.given) <= asked.tolerance))
+            found = asked.over(in_sector)
+            met = asked.met(found)
             best, most = (found, met) if met > most else (best, most)
     return best
 
@@ -125,10 +115,7 @@ def ahead(asked: Asked) -> np.ndarray:
 @predicts("those of a part of the rays only, not of those all around", rank=2)
 def part_of_the_circle(asked: Asked) -> np.ndarray:
     eighths = [(begin, end) for begin in range(8) for end in range(begin + 1, 9) if end - begin < 8]
-    return _best(
-        asked,
-        [_over(asked, _slice(begin, end)) for begin, end in eighths],
-    )
+    return max((asked.over(_slice(begin, end)) for begin, end in eighths), key=asked.met)
 
 
 def _slice(begin: int, end: int) -> Choice:
@@ -136,27 +123,16 @@ def _slice(begin: int, end: int) -> Choice:
     return lambda row, low, high: _valid(row[len(row) * begin // 8 : len(row) * end // 8], low, high)
 
 
-def _best(asked: Asked, candidates: list[np.ndarray]) -> np.ndarray:
-    """Return the candidate that meets most answers."""
-    met = [int(np.sum(np.abs(each - asked.given) <= asked.tolerance)) for each in candidates]
-    return candidates[int(np.argmax(met))]
-
-
 @predicts("the sum of the valid ranges divided by the number of all rays, not of the valid ones", only=(MEAN,))
 def divided_by_all_rays(asked: Asked) -> np.ndarray:
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    return asked.scans.each(lambda row, low, high: float(_valid(row, low, high).sum() / len(row)))
+    return asked.of_valid(np.sum) / asked.of_rows(len)
 
 
 @predicts(
     "the average over one ray too few or too many: the sum is right, the number it is divided by is not", (MEAN,), 2
 )
 def divided_by_one_less(asked: Asked) -> np.ndarray:
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    sums = asked.scans.each(lambda row, low, high: float(_valid(row, low, high).sum()))
-    counts = asked.scans.each(lambda row, low, high: float(len(_valid(row, low, high))))
+    sums, counts = asked.of_valid(np.sum), asked.of_valid(len)
     near = [sums / (counts + off) for off in (-1, 1)]
     return (
         near[0] if np.nanmean(np.abs(near[0] - asked.given)) <= np.nanmean(np.abs(near[1] - asked.given)) else near[1]

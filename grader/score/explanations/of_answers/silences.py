@@ -33,12 +33,40 @@ def stopped_answering(asked: Asked) -> str:
 def every_nth(asked: Asked) -> str:
     answered = np.flatnonzero(asked.answered)
     steps = np.diff(answered)
+    if len(steps) > 5 and np.ptp(steps) == 1 and steps.mean() >= 1.3 and np.mean(steps == np.median(steps)) < 0.8:
+        period = float(np.diff(asked.times[answered[[0, -1]]])[0] / len(steps))
+        return (
+            f"your node answers at even intervals of about {period:.2g} s, as a timer does, and not once for each "
+            "scan: publish and log in the callback of the scan"
+        )
     if len(steps) < 2 or steps[0] < 2 or np.mean(steps == np.median(steps)) < 0.8:
         return ""
     step = int(np.median(steps))
     which = {2: "every second scan", 3: "every third scan"}.get(step, f"one scan in {step}")
     period = float(np.median(np.diff(asked.times[answered])))
     return f"your node answered {which} only, once in {period:.2g} s: publish and log in the callback of each scan"
+
+
+@notices
+def only_changes(asked: Asked) -> str:
+    """Find answers that come only if the value differs enough from the last one that was given."""
+    known = np.flatnonzero(asked.answered)
+    if len(known) < 4 or asked.answered.mean() > 0.95 or every_nth(asked) or stopped_answering(asked):
+        return ""
+    with np.errstate(invalid="ignore"):
+        if not np.all(np.abs(asked.given[known] - asked.truth[known]) <= asked.tolerance):
+            return ""
+    last = known[np.searchsorted(known, np.arange(len(asked.truth)), side="left").clip(1) - 1]
+    steps = np.abs(asked.truth - asked.truth[last])[known[0] + 1 :]
+    there = asked.answered[known[0] + 1 :]
+    missing = int(np.sum(~asked.answered))
+    if not there.any() or there.all() or steps[~there].max() > steps[there].min() + asked.tolerance:
+        return f"all your answers are right, but {missing} scans have none: something skips them"
+    least = steps[there].min()
+    return (
+        f"your node answers only when the value has changed, by {least:.2g} or more: {missing} scans have no answer, "
+        "and each needs one"
+    )
 
 
 @notices

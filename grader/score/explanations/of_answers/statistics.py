@@ -2,82 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import Asked, predicts
-
-MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"
-
-
-def _of_valid(asked: Asked, value: Callable[[np.ndarray], float]) -> np.ndarray:
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    return asked.scans.each(lambda row, low, high: float(value(row[(row > low) & (row < high)])))
-
-
-def _of_row(asked: Asked, value: Callable[[np.ndarray], float]) -> np.ndarray:
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    return asked.scans.each(lambda row, low, high: float(value(row)))
-
-
-def _nearest(asked: Asked) -> np.ndarray:
-    """Return the index of the ray with the smallest valid range, for each scan."""
-    if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    return asked.scans.each(lambda row, low, high: int(np.where((row > low) & (row < high), row, np.inf).argmin()))
+from gz_course.grader.score.explanations.answers import COUNT, MEAN, MINIMUM, Asked, predicts
 
 
 @predicts("the smallest valid range", only=(MEAN, COUNT))
 def smallest(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.min)
+    return asked.of_valid(np.min)
 
 
 @predicts("the largest valid range", only=(MINIMUM, MEAN, COUNT))
 def largest(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.max)
+    return asked.of_valid(np.max)
 
 
 @predicts("the average of the valid ranges, not the smallest of them", only=(MINIMUM, COUNT))
 def average(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.mean)
+    return asked.of_valid(np.mean)
 
 
 @predicts("the median of the valid ranges", only=(MINIMUM, MEAN, COUNT))
 def median(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.median)
+    return asked.of_valid(np.median)
 
 
 @predicts("the middle between the smallest and the largest valid range", only=(MINIMUM, MEAN))
 def middle(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, lambda valid: (valid.min() + valid.max()) / 2)
+    return asked.of_valid(lambda valid: (valid.min() + valid.max()) / 2)
 
 
 @predicts("the sum of the valid ranges: it is not divided by their number", only=(MINIMUM, MEAN, COUNT))
 def total(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.sum)
+    return asked.of_valid(np.sum)
 
 
 @predicts("the standard deviation of the valid ranges", only=(MINIMUM, MEAN))
 def spread(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.std)
+    return asked.of_valid(np.std)
 
 
 @predicts("the number of valid rays", only=(MINIMUM, MEAN))
 def number(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, len)
+    return asked.of_valid(len)
 
 
 @predicts("the number of all rays, the invalid ones included", only=(MINIMUM, MEAN))
 def number_of_all(asked: Asked) -> np.ndarray:
-    return _of_row(asked, len)
+    return asked.of_rows(len)
 
 
 @predicts("the number of rays that are not valid", only=(COUNT,))
 def number_of_invalid(asked: Asked) -> np.ndarray:
-    return _of_row(asked, len) - asked.truth
+    return asked.of_rows(len) - asked.truth
 
 
 @predicts("one less than the number of valid rays, such as the last index, or a ray is left out", only=(COUNT,))
@@ -92,26 +69,26 @@ def one_more(asked: Asked) -> np.ndarray:
 
 @predicts("the second smallest valid range", only=(MINIMUM,))
 def second_smallest(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, lambda valid: np.partition(valid, 1)[1])
+    return asked.of_valid(lambda valid: np.partition(valid, 1)[1])
 
 
 @predicts("the index of the nearest ray, not its range", only=(MINIMUM,))
 def index(asked: Asked) -> np.ndarray:
-    return _nearest(asked)
+    return asked.nearest
 
 
 @predicts("the index of the nearest among the valid rays, not its range", only=(MINIMUM,))
 def index_among_valid(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, np.argmin)
+    return asked.of_valid(np.argmin)
 
 
 @predicts("the angle [rad] of the nearest ray, not its range", only=(MINIMUM,))
 def angle(asked: Asked) -> np.ndarray:
     if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    rays = _of_row(asked, len)
+        return asked.unknown
+    rays = asked.of_rows(len)
     step = (asked.scans.angle_max - asked.scans.angle_min) / (rays - 1)
-    return asked.scans.angle_min + _nearest(asked) * step
+    return asked.scans.angle_min + asked.nearest * step
 
 
 @predicts("the angle of the nearest ray in degrees, not its range", only=(MINIMUM,))
@@ -122,8 +99,8 @@ def angle_in_degrees(asked: Asked) -> np.ndarray:
 @predicts("the range of the ray beside the nearest one: an index is off by one", only=(MINIMUM,), rank=2)
 def beside(asked: Asked) -> np.ndarray:
     if asked.scans is None:
-        return np.full(len(asked.truth), np.nan)
-    nearest = _nearest(asked)
+        return asked.unknown
+    nearest = asked.nearest
     sides = [
         np.array([row[(int(i) + off) % len(row)] for row, i in zip(asked.scans.rows, nearest, strict=True)])
         for off in (-1, 1)
@@ -134,34 +111,34 @@ def beside(asked: Asked) -> np.ndarray:
 
 @predicts("the range of the first ray, ranges[0]", only=(MINIMUM, MEAN))
 def first_ray(asked: Asked) -> np.ndarray:
-    return _of_row(asked, lambda row: row[0])
+    return asked.of_rows(lambda row: row[0])
 
 
 @predicts("the range of the last ray, ranges[-1]", only=(MINIMUM, MEAN))
 def last_ray(asked: Asked) -> np.ndarray:
-    return _of_row(asked, lambda row: row[-1])
+    return asked.of_rows(lambda row: row[-1])
 
 
 @predicts("the range of the middle ray, the one straight ahead", only=(MINIMUM, MEAN))
 def middle_ray(asked: Asked) -> np.ndarray:
-    return _of_row(asked, lambda row: row[len(row) // 2])
+    return asked.of_rows(lambda row: row[len(row) // 2])
 
 
 @predicts("the first valid range, not the smallest", only=(MINIMUM, MEAN))
 def first_valid(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, lambda valid: valid[0])
+    return asked.of_valid(lambda valid: valid[0])
 
 
 @predicts("the last valid range, not the smallest", only=(MINIMUM, MEAN))
 def last_valid(asked: Asked) -> np.ndarray:
-    return _of_valid(asked, lambda valid: valid[-1])
+    return asked.of_valid(lambda valid: valid[-1])
 
 
 @predicts("range_min, the limit of the sensor, not the smallest range it measured", only=(MINIMUM, MEAN))
 def limit_below(asked: Asked) -> np.ndarray:
-    return asked.scans.low if asked.scans else np.full(len(asked.truth), np.nan)
+    return asked.scans.low if asked.scans else asked.unknown
 
 
 @predicts("range_max, the limit of the sensor", only=(MINIMUM, MEAN))
 def limit_above(asked: Asked) -> np.ndarray:
-    return asked.scans.high if asked.scans else np.full(len(asked.truth), np.nan)
+    return asked.scans.high if asked.scans else asked.unknown

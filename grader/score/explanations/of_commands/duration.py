@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gz_course.grader.score.explanations.commands import Drive, explains
+from gz_course.grader.score.explanations.of_commands.sequence import all_at_once, one_after_the_other
 
 LATE = 0.6  # [s] after which the first command of a drive is late
 # Ratio of the time driven to the time asked for -> its reason.
@@ -73,7 +74,7 @@ def whole_seconds(drive: Drive) -> str:
 @explains
 def stops_at_once(drive: Drive) -> str:
     _, duration, number = _only_push(drive)
-    if not number or duration > 0.08 * drive.seconds or len(drive.times) < 4:
+    if not number or duration > 0.08 * drive.seconds or len(drive.times) < 4 or all_at_once(drive):
         return ""
     return (
         f"the drive ended after {duration:.2f} s, {'1 command' if number == 1 else f'{number} commands'}: the time "
@@ -84,6 +85,8 @@ def stops_at_once(drive: Drive) -> str:
 @explains
 def other_duration(drive: Drive) -> str:
     begin, duration, number = _only_push(drive)
+    if all_at_once(drive) or one_after_the_other(drive):
+        return ""
     if not number or counts_commands(drive) or not _wrong(drive, duration) or stops_at_once(drive):
         return ""
     for ratio, reason in RATIOS.items():
@@ -94,6 +97,8 @@ def other_duration(drive: Drive) -> str:
 
 @explains
 def begins_late(drive: Drive) -> str:
+    if one_after_the_other(drive):
+        return ""
     if not drive.pushes or drive.pushes[0][0] <= max(LATE, 2.5 * (0.0 if np.isnan(drive.period) else drive.period)):
         return ""
     begin = drive.pushes[0][0]

@@ -18,9 +18,46 @@ def only_one(drive: Drive) -> str:
 
 
 @explains
+def all_at_once(drive: Drive) -> str:
+    together = int(np.sum(drive.times - drive.times[0] < 1e-3))
+    if together < 4:
+        return ""
+    return (
+        f"{together} commands came at the same moment, {drive.times[0]:.2f} s: a loop in one callback publishes them, "
+        "while no time passes; send one in each call of the timer"
+    )
+
+
+@explains
+def one_after_the_other(drive: Drive) -> str:
+    """Find a turn without a drive, before or after a drive without a turn."""
+    turning = np.abs(drive.angular[:, 2]) > 0.01
+    if not drive.moving.any() or not turning.any() or (drive.moving & turning).any():
+        return ""
+    first, second = ("turns", "drives") if np.argmax(turning) < np.argmax(drive.moving) else ("drives", "turns")
+    return (
+        f"your node first {first} and then {second}: linear.x and angular.z belong into the same command, so that the "
+        "robot does both at once"
+    )
+
+
+@explains
+def backwards_for_a_stop(drive: Drive) -> str:
+    values = drive.linear[:, 0]
+    last = values[-1]
+    if last >= -0.01 or values.max() <= 0.01:
+        return ""
+    begin = drive.times[np.flatnonzero(values > 0.01)[-1] + 1]
+    return (
+        f"from {begin:.2f} s on linear.x is {last:.2f} m/s: a negative linear.x does not brake, it drives the robot "
+        "backwards; 0 stops it"
+    )
+
+
+@explains
 def no_stop(drive: Drive) -> str:
     """Find a drive that ceased without a stop."""
-    if len(drive.times) < 2 or not drive.moving[-1] or drive.ended - drive.times[-1] < 0.8:
+    if len(drive.times) < 2 or all_at_once(drive) or not drive.moving[-1] or drive.ended - drive.times[-1] < 0.8:
         return ""
     return (
         f"the last command came at {drive.times[-1]:.2f} s and drives on: your node falls silent, where a command "

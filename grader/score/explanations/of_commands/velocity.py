@@ -18,7 +18,8 @@ SPEEDS = {
     0.1: "that is a tenth of the speed asked for",
     0.2: "that is the distance driven, divided by more than the time, or a fifth of the speed asked for",
 }
-STRONG = 0.8  # [rad/s] a slight turn is less
+SLIGHT = 0.33  # [rad/s] a turn up to this is slight
+STRONG = 0.8  # [rad/s] more looks like degrees
 
 
 def _near(value: float, wanted: float) -> bool:
@@ -92,6 +93,25 @@ def other_speed(drive: Drive) -> str:
     if abs(values[0] - drive.speed) > 0.1 * drive.speed:
         return f"linear.x was {values[0]:.2f} m/s where {drive.speed:g} m/s is asked for"
     return ""
+
+
+@explains
+def wiggles(drive: Drive) -> str:
+    turning = drive.angular[np.abs(drive.angular[:, 2]) > 0.01, 2]
+    if len(turning) < 6 or not (turning > 0).any() or not (turning < 0).any():
+        return ""
+    changes = int(np.count_nonzero(np.diff(np.sign(turning))))
+    how = "from command to command" if changes > 0.8 * (len(turning) - 1) else f"{changes} times"
+    return f"the sign of angular.z changes {how}: the robot turns to the left and to the right by turns"
+
+
+@explains
+def wide_turn(drive: Drive) -> str:
+    turning = drive.angular[drive.moving, 2] if drive.moving.any() else drive.angular[:, 2]
+    strong = float(np.median(np.abs(turning))) if len(turning) else 0.0
+    if not SLIGHT < strong <= STRONG or _near(strong, drive.speed):
+        return ""
+    return f"angular.z was {strong:.2f} rad/s, which is no slight turn: 0.1 rad/s is one"
 
 
 @explains

@@ -14,6 +14,7 @@ TITLE = "installed packages"
 COURSE = "gz-ros2-course"
 CONSTRAINTS = Path(__file__).parents[4] / "constraints.txt"
 SHOWN = 4  # packages named in one sentence
+RUNTIME = re.compile(r"extra == ['\"]runtime['\"]")  # what `dependencies` in pyproject.toml asks for
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 
 
@@ -49,8 +50,8 @@ def normal(name: str) -> str:
 
 
 def required(requirements: Iterable[str]) -> list[str]:
-    """Return the names in a package's list of requirements, without those of its extras."""
-    plain = [text for text in requirements if "extra ==" not in text]
+    """Return the names in the course's list of requirements, without those of extras other than its `runtime`."""
+    plain = [text for text in requirements if "extra ==" not in text or RUNTIME.search(text)]
     return [normal(found.group()) for text in plain if (found := _NAME.match(text))]
 
 

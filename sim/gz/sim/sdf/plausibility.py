@@ -9,9 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+import numpy as np
+
 from gz_course.sim.gz.sim.errors import Diagnostics
-from gz_course.sim.gz.sim.sdf.description import Model
+from gz_course.sim.gz.sim.sdf.description import Link, Model
 from gz_course.sim.gz.sim.sdf.element import Element
+from gz_course.sim.gz.sim.sdf.inertia import solid, tensor
 from gz_course.sim.gz.sim.sdf.vocabulary import CHILDREN
 
 Found = Iterator[tuple[str, str]]
@@ -22,6 +25,8 @@ MOST_RADIANS = 6.5
 """Maximum plausible angle [rad] of a pose, just above a full turn; larger ones are probably in degrees."""
 DEGREES = frozenset(range(15, 361, 15))
 """Limits of joints that are probably in degrees; other large limits are those of joints with several turns."""
+LEAST_INERTIA = 0.05
+"""Share of the inertia of a link's largest collision, with its mass evenly spread, below which its own is doubted."""
 _NEEDED = {
     "box": ("size",),
     "sphere": ("radius",),
@@ -162,12 +167,18 @@ def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
     links = {link.name: link for link in model.links}
     for joint in model.joints:
         link = links.get(joint.child)
-        if joint.kind != "fixed" and link is not None and link.collisions and link.element.find("inertial") is None:
+        if joint.kind == "fixed" or link is None or not link.collisions:
+            continue
+        if link.element.find("inertial") is None:
             text = f"link '{link.name}' has no <inertial>, so it has a mass of 1 kg and moments of inertia of 1 kg m^2 "
             text += (
                 f"(SDF's default), and joint '{joint.name}' moves slowly; state both or write <inertial auto='true'/>"
             )
             diagnostics.doubt(link.element.where, text)
+        elif (stated := _least_moment(tensor(link.inertial.moments))) < LEAST_INERTIA * (usual := _usual_moment(link)):
+            text = f"link '{link.name}' has almost no moment of inertia: {stated:.2g} kg m^2, where its mass and shape "
+            text += f"make {usual:.2g}; joint '{joint.name}' then has next to nothing to turn, and physics can fail "
+            diagnostics.doubt(link.element.where, f"{text}(the robot explodes); state that of its shape in <inertia>")
     joined = {end for joint in model.joints for end in (joint.parent, joint.child)}
     loose = [link for link in model.links if link.name not in joined]
     if model.joints and loose:
@@ -178,3 +189,16 @@ def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
     if seen and not solid and not held and any(link.gravity for link in model.links):
         text = f"model '{model.name}' can be seen but has no <collision>, so it falls through the ground; add one, or "
         diagnostics.doubt(model.element.where, f"{text}write <static>true</static>")
+
+
+def _usual_moment(link: Link) -> float:
+    """Return the smallest principal moment [kg m^2] of the link's mass, evenly spread in its largest collision."""
+    solids = [body for collision in link.collisions if (body := solid(collision.geometry)) is not None]
+    if not solids:
+        return 0.0
+    volume, _, inertia = max(solids, key=lambda body: body[0])
+    return link.inertial.mass * _least_moment(inertia) / volume
+
+
+def _least_moment(inertia: np.ndarray) -> float:
+    return float(np.linalg.eigvalsh(inertia)[0])

@@ -80,7 +80,7 @@ def test_right_bridges_pass(found):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"ros_topic": "/laser"}, ["line 6", "/lidar is called /laser in ROS here", "/scan"]),
+        ({"ros_topic": "/laser"}, ["line 6", "Gazebo's /lidar is called /laser in ROS here", "/scan"]),
         ({"ros_topic": "/lidar", "gz_topic": "/scan"}, ["line 6", "the wrong way round", "/lidar is Gazebo's name"]),
         ({"ros_topic": "/scans", "gz_topic": "/x"}, ["no bridge has the ROS topic /scan", "is it '/scans'?"]),
         ({"gz_topic": "/lidarr"}, ["line 6", "nobody in Gazebo publishes /lidarr", "look at its spelling"]),

@@ -1,5 +1,6 @@
 """Wrong programs, one misconception each, answer the scans of a robot: the first sentence names the fault."""
 
+import itertools
 import math
 import statistics
 
@@ -139,7 +140,26 @@ def nearest(scan):
     return scan.ranges.index(min(valid(scan)))
 
 
+def until_invalid(scan):
+    """Return the ranges before the first invalid one."""
+    return list(itertools.takewhile(lambda r: scan.range_min < r < scan.range_max, scan.ranges))
+
+
+def halves(scan, kept):
+    value = 0.0
+    for each in valid(scan):
+        value = (value + each) / 2
+    return value
+
+
+def x_of(scan, ray):
+    return scan.ranges[ray] * math.cos(scan.angle_min + ray * scan.angle_increment)
+
+
 MINIMA = {
+    "before the first invalid one: a break": lambda scan, kept: min(until_invalid(scan)),
+    "2 significant digits": lambda scan, kept: float(f"{min(valid(scan)):.1e}"),
+    "x of the nearest point": lambda scan, kept: x_of(scan, nearest(scan)),
     "those of the scan before": before(1),
     "those of two scans before": before(2),
     "three to ten scans before": before(5),
@@ -314,3 +334,24 @@ FITTED = {
 def test_a_misconception_with_a_number_in_it_is_named_with_the_number(statistic):
     said = {words: said_of(program, statistic) for words, program in FITTED[statistic].items()}
     assert {words: sentence for words, sentence in said.items() if words not in sentence} == {}
+
+
+def only_if_changed(scan, kept):
+    value = min(valid(scan))
+    if abs(value - kept.get("last", -1.0)) < 0.05:
+        return None
+    kept["last"] = value
+    return value
+
+
+def by_a_timer(scan, kept):
+    kept["n"] = kept.get("n", -1) + 1
+    return min(valid(scan)) if int(kept["n"] * 0.4) != int((kept["n"] - 1) * 0.4) else None
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [(only_if_changed, "only when the value has changed"), (by_a_timer, "at even intervals of about 0.25 s")],
+)
+def test_scans_without_an_answer(program, words):
+    assert words in said_of(program, "minimum")

@@ -40,6 +40,13 @@ def scaled(linear, angular):
 
 
 WRONG = {
+    "50 commands came at the same moment": drive(lambda now, calls: [GO] * 50 if calls == 0 else None),
+    "first turns and then drives": drive(
+        lambda now, calls: (0.0, 0.1) if now < 2.7 else (0.5, 0.0) if now < 5.2 else STOP
+    ),
+    "it drives the robot backwards; 0 stops it": drive(lambda now, calls: GO if now < 5.2 else (-0.5, 0.0)),
+    "the sign of angular.z changes from command": drive(lambda now, calls: (0.5, 0.1 * (-1) ** calls)),
+    "no slight turn": drive(scaled(1, 6)),
     "the speed in km/h": drive(scaled(3.6, 1)),
     "the speed in cm/s": drive(scaled(100, 1)),
     "half the speed": drive(scaled(0.5, 1)),

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gz_course.grader.score.explanations.texts import difference, wrong_moment
+from gz_course.grader.score.explanations.texts import difference, too_many, wrong_moment
 from gz_course.grader.score.launched import looked_elsewhere
 
 WANTED = "hello, robot"
@@ -44,3 +44,18 @@ def test_a_relative_path_is_named():
     assert "bridge.yaml was looked for in the folder in which ros2 launch was called" in looked_elsewhere(bridge)
     assert "Path(__file__).parent / 'stopwatch.py'" in looked_elsewhere(python)
     assert looked_elsewhere("bridge.yaml:3: not valid YAML") == looked_elsewhere("") == ""
+
+
+@pytest.mark.parametrize(
+    ("times", "words"),
+    [
+        ([1.0], ""),
+        ([1.0, 1.0], "2 times at the same moment"),
+        ([1.0, 2.0, 3.0], "every 1.00 s until the end"),
+        ([0.5, 1.0], "0.50 s apart and ceased"),
+        ([0.5, 1.0, 3.0], ""),
+    ],
+)
+def test_the_way_of_too_many_messages_is_named(times, words):
+    said = too_many(np.array(times), 3.0)
+    assert words in said and bool(words) == bool(said)

@@ -90,7 +90,7 @@ PINS = "# tested\nThe_Wheel==1.0\nother.wheel==2.5 ; python_version > '3'\nnothi
 
 def test_versions_are_compared_as_pip_writes_them(tmp_path, monkeypatch):
     assert wheels.pinned(PINS) == {"the-wheel": "1.0", "other-wheel": "2.5"}
-    asked = ["mujoco", "ros-jazzy-rclpy[fastrtps]>=7", "ruff; extra == 'dev'", "Py_YAML ; python_version > '3'"]
+    asked = ["mujoco", "ros-jazzy-rclpy[fastrtps]>=7", "ruff; extra == 'dev'", "Py_YAML ; extra == 'runtime'"]
     assert wheels.required(asked) == ["mujoco", "ros-jazzy-rclpy", "py-yaml"]
     (tmp_path / "constraints.txt").write_text(PINS)
     monkeypatch.setattr(wheels, "CONSTRAINTS", tmp_path / "constraints.txt")
