@@ -130,7 +130,7 @@ def folder_tree(folder: Path) -> Tree:
             raise RefusedError(f"{folder} holds folders in folders too deep: {shown(below, 60)!r}")
         for name in sorted(names):
             path = Path(parent, name)
-            inside = path.relative_to(folder).as_posix()
+            inside = f"{below}/{name}" if below else name
             if is_junk(name) or not _is_utf8(inside):
                 continue
             member = folder_member(path)
@@ -166,7 +166,7 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
     It may be anywhere if it is there only once. If it is missing, the only file of its type is taken whatever its name,
     and a single archive is opened. Raises UsageError if there is none, RefusedError if something must not be read.
     """
-    tree = {n: m for n, m in tree.items() if not any(map(is_junk, PurePosixPath(n).parts)) and _is_utf8(n)}
+    tree = {n: m for n, m in tree.items() if not any(map(is_junk, n.split("/"))) and _is_utf8(n)}
     for name, member in sorted(tree.items()):
         if member.refusal:
             raise RefusedError(f"{where} holds {shown(name)!r}, which {member.refusal}; send plain files")
@@ -193,7 +193,7 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
 
 
 def _named(tree: Tree, wanted: str) -> list[str]:
-    return sorted(name for name in tree if PurePosixPath(name).name == wanted)
+    return sorted(name for name in tree if name.rpartition("/")[2] == wanted)
 
 
 def _main(tree: Tree, exercise: Exercise, where: str) -> str:
@@ -218,11 +218,12 @@ def _main(tree: Tree, exercise: Exercise, where: str) -> str:
 
 
 def _above(name: str) -> list[str]:
-    return [str(parent) for parent in PurePosixPath(name).parents][:-1]
+    parts = name.split("/")
+    return ["/".join(parts[:count]) for count in range(len(parts) - 1, 0, -1)]
 
 
 def _stands_in(name: str) -> bool:
-    return any(part.partition(".")[0] in STAND_INS for part in PurePosixPath(name).parts)
+    return any(part.partition(".")[0] in STAND_INS for part in name.split("/"))
 
 
 def _content(member: Member, name: str, where: str, largest: int) -> bytes:

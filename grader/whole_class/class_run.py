@@ -27,7 +27,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.run.sandbox import AUTO, LEVELS, check_jobs, choose, level_module
 from gz_course.grader.submission.intake import Selection
-from gz_course.grader.whole_class.dask_cluster import dask_executor
+from gz_course.grader.whole_class.dask_cluster import Needs, dask_executor
 from gz_course.grader.whole_class.found import Found
 from gz_course.grader.whole_class.gradebook import as_csv, write_gradebook
 from gz_course.grader.whole_class.grading import REPORT, Graded, Job, Setup, grade_one, gradings_end_here
@@ -35,7 +35,7 @@ from gz_course.grader.whole_class.index import write_index
 from gz_course.grader.whole_class.journal import JOURNAL, Journal, read_results
 from gz_course.grader.whole_class.kept import is_kept, without_recordings
 from gz_course.grader.whole_class.plan import Plan, make_plan
-from gz_course.grader.whole_class.students_folder import PART, folder_name
+from gz_course.grader.whole_class.students_folder import PART, SIMILARITY, folder_name
 from gz_course.grader.whole_class.versions import versions
 
 LOOK = 2.0  # [s] between two checks that the workers still exist
@@ -96,7 +96,8 @@ class ClassRun:
             if local:
                 executor, slots, gone = self._here(jobs, stack)
             else:
-                executor, slots, gone = stack.enter_context(dask_executor(dask or "", self._check_slots))
+                needs = Needs(versions(), self.sandbox, self.demand)
+                executor, slots, gone = stack.enter_context(dask_executor(dask or "", self._check_slots, needs))
             results: dict[str, Result] = {}
             todo = deque((each, 1) for each in found)
             order = [each.student for each, _ in todo]
@@ -154,10 +155,10 @@ class ClassRun:
         """Make the folder of the class if necessary, and open its journal."""
         try:
             self.out.mkdir(parents=True, exist_ok=True)
-            strangers = any(self.out.iterdir()) and not (self.out / JOURNAL).exists()
+            found = {path.name for path in self.out.iterdir()}
         except OSError as error:
             raise UsageError(f"{self.out} cannot be used: {error.strerror}") from None
-        if strangers:
+        if found - SIMILARITY and JOURNAL not in found:
             raise UsageError(f"{self.out} is not empty and not from an earlier run; give a folder that is new or empty")
         journal = Journal(self.out)
         for part in self.out.glob(f"{PART}*"):

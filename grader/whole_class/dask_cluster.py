@@ -1,8 +1,8 @@
 """Grading of a class on several machines: Dask's scheduler distributes the jobs to workers, which grade.
 
 Workers need the course installed, in the same version, but no shared files: submissions and recordings are sent as
-bytes. Workers may end and join at any time. One that joins with other versions grades nothing: it says so instead of
-grading, and is dismissed. Used by `class_run.py` for `--dask`.
+bytes. Workers may end and join at any time. One that joins with other versions, or without the sandbox, grades nothing:
+it says so instead of grading, and is dismissed. Used by `class_run.py` for `--dask`.
 """
 
 from __future__ import annotations
@@ -16,9 +16,10 @@ from concurrent.futures import Executor, Future, InvalidStateError
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.errors import UsageError
+from gz_course.grader.errors import CourseError, UsageError
 from gz_course.grader.printable import shown
 from gz_course.grader.process.temporary_folder import TemporaryFolder
+from gz_course.grader.run.sandbox import choose
 from gz_course.grader.whole_class.versions import versions
 
 if TYPE_CHECKING:
@@ -27,15 +28,24 @@ if TYPE_CHECKING:
 CONNECT = 15.0  # [s] to connect to a scheduler
 
 
+@dataclass(frozen=True)
+class Needs:
+    """What a worker must have: equal versions, and a level of the sandbox, as for `choose`."""
+
+    versions: dict[str, str]
+    sandbox: str
+    demand: str | None
+
+
 @contextlib.contextmanager
 def dask_executor(
-    address: str, check_slots: Callable[[int], None]
+    address: str, check_slots: Callable[[int], None], needs: Needs
 ) -> Iterator[tuple[Executor, Callable[[], int], Callable[[], bool]]]:
     """Connect to a scheduler (`tcp://host:port`) or start workers here (`local:N`).
 
     Yields an executor and two functions: how many gradings it runs at a time now, and whether the scheduler is lost.
     `check_slots` gets the largest number of gradings that one machine runs at a time. Raises UsageError if Dask is not
-    installed, the scheduler does not answer, or a worker has other versions.
+    installed, the scheduler does not answer, or a worker does not have what it `needs`.
     """
     try:
         import dask
@@ -73,9 +83,9 @@ def dask_executor(
             ) from None
         slots = _Slots(client, check_slots)
         slots()
-        _check_versions(client.run(_worker_versions, on_error="return"))
+        _check_workers(client.run(_unfit, needs, on_error="return"))
         # Not closed by its own context manager, which would wait for gradings that a lost scheduler never reports.
-        executor = _Checked(client, client.get_executor(pure=False, retries=0))
+        executor = _Checked(client, client.get_executor(pure=False, retries=0), needs)
         yield executor, slots, lambda: client.status not in ("running", "connecting")
 
 
@@ -100,8 +110,8 @@ class _Slots:
         return self.last
 
 
-class _UnequalError(Exception):
-    """What a worker raises instead of grading: its address and its versions.
+class _UnfitError(Exception):
+    """What a worker raises instead of grading: its address, and a sentence that says why it does not fit.
 
     It is no result, because a worker that holds results cannot be dismissed before another one has taken them.
     """
@@ -111,15 +121,15 @@ class _UnequalError(Exception):
         return str(self.args[0])
 
     @property
-    def versions(self) -> dict[str, str]:
-        return dict(self.args[1])
+    def why(self) -> str:
+        return str(self.args[1])
 
 
 class _Checked(Executor):
-    """Dask's executor, but a worker with other versions than here is dismissed, and another one does its work."""
+    """Dask's executor, but a worker that does not fit is dismissed, and another one does its work."""
 
-    def __init__(self, client: Client, inner: Executor) -> None:
-        self._client, self._inner = client, inner
+    def __init__(self, client: Client, inner: Executor, needs: Needs) -> None:
+        self._client, self._inner, self._needs = client, inner, needs
         self._lock = threading.Lock()
         self._dismissed: set[str] = set()
 
@@ -129,7 +139,7 @@ class _Checked(Executor):
         return outer
 
     def _begin(self, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
-        inner = self._inner.submit(_if_equal, versions(), function, *arguments)
+        inner = self._inner.submit(_if_fit, self._needs, function, *arguments)
         outer.add_done_callback(lambda done: inner.cancel() if done.cancelled() else None)
 
         def ended(done: Future[Any]) -> None:
@@ -137,7 +147,7 @@ class _Checked(Executor):
                 return
             if done.cancelled():
                 outer.cancel()
-            elif isinstance(error := done.exception(), _UnequalError):
+            elif isinstance(error := done.exception(), _UnfitError):
                 again = (error, outer, function, arguments)  # in a thread of its own, as Dask calls this in its loop
                 threading.Thread(target=self._dismiss, args=again, daemon=True).start()
             elif error is not None:
@@ -148,15 +158,15 @@ class _Checked(Executor):
         inner.add_done_callback(ended)
 
     def _dismiss(
-        self, unequal: _UnequalError, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]
+        self, unfit: _UnfitError, outer: Future[Any], function: Callable[..., Any], arguments: tuple[Any, ...]
     ) -> None:
         """Say which worker does not fit, end it, and give its work to another one."""
         with self._lock:
-            if unequal.worker not in self._dismissed:
-                self._dismissed.add(unequal.worker)
-                print(f"{_difference(unequal.worker, unequal.versions)}; it is dismissed", file=sys.stderr, flush=True)
+            if unfit.worker not in self._dismissed:
+                self._dismissed.add(unfit.worker)
+                print(f"the Dask worker {unfit.worker} {unfit.why}; it is dismissed", file=sys.stderr, flush=True)
                 with contextlib.suppress(Exception):  # it may be gone already
-                    self._client.retire_workers([unequal.worker], close_workers=True, remove=True)
+                    self._client.retire_workers([unfit.worker], close_workers=True, remove=True)
         try:
             self._begin(outer, function, arguments)
         except Exception as error:  # the scheduler is lost
@@ -169,30 +179,32 @@ def _finish(future: Future[Any], result: Any) -> None:
         future.set_exception(result) if isinstance(result, BaseException) else future.set_result(result)
 
 
-def _if_equal(wanted: dict[str, str], function: Callable[..., Any], *arguments: Any) -> Any:
-    """Call the function on a worker if its versions are those that are wanted."""
-    if (here := versions()) != wanted:
+def _if_fit(needs: Needs, function: Callable[..., Any], *arguments: Any) -> Any:
+    """Call the function on a worker if it fits."""
+    if why := _unfit(needs):
         from distributed import get_worker
 
-        raise _UnequalError(get_worker().address, here)
+        raise _UnfitError(get_worker().address, why)
     return function(*arguments)
 
 
-def _worker_versions() -> dict[str, str]:
-    return versions()
+def _unfit(needs: Needs) -> str:
+    """Return why this machine must not grade, as the end of a sentence; empty if it may."""
+    here = versions()
+    if here != needs.versions:
+        package, version = next((each for each in needs.versions.items() if here.get(each[0]) != each[1]), ("more", ""))
+        return f"has {package} {here.get(package)}, but here it is {version}; install the same on both"
+    try:
+        choose(needs.sandbox, needs.demand)
+    except CourseError as error:
+        return f"has no such sandbox: {shown(str(error))}"
+    return ""
 
 
-def _check_versions(of_workers: dict[str, object]) -> None:
-    """Raise UsageError if a worker has other versions: equal submissions must get equal scores everywhere."""
-    ours = versions()
-    for worker, theirs in sorted(of_workers.items()):
-        if not isinstance(theirs, dict):
-            raise UsageError(f"the Dask worker {worker} cannot grade; is the course installed there? ({theirs})")
-        if theirs != ours:
-            raise UsageError(f"{_difference(worker, theirs)}; install the same on both")
-
-
-def _difference(worker: str, theirs: dict[str, str]) -> str:
-    """Return the beginning of a sentence on a worker with other versions."""
-    package, version = next((each for each in versions().items() if theirs.get(each[0]) != each[1]), ("more", "none"))
-    return f"the Dask worker {worker} has {package} {theirs.get(package)}, but here it is {version}"
+def _check_workers(of_workers: dict[str, object]) -> None:
+    """Raise UsageError if a worker must not grade: equal submissions must get equal scores everywhere."""
+    for worker, why in sorted(of_workers.items()):
+        if not isinstance(why, str):
+            raise UsageError(f"the Dask worker {worker} cannot grade; is the course installed there? ({why})")
+        if why:
+            raise UsageError(f"the Dask worker {worker} {why}")

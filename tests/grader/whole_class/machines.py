@@ -14,6 +14,8 @@ COURSE = [sys.executable, "-c", "from gz_course.grader.course import main; main(
 PORT = 8786
 # Loaded by a worker that has another version of the course.
 OTHER_VERSION = "from gz_course.grader.whole_class import versions\nversions.version = lambda package: '0.0.1'\n"
+# Loaded by a worker on whose machine no level of the sandbox works.
+NO_SANDBOX = "from gz_course.grader.run.sandbox import probe\nprobe.try_level = lambda level: 'not today'\n"
 
 
 class Network:
@@ -68,7 +70,7 @@ class Network:
             process = subprocess.Popen(
                 ["ip", "netns", "exec", self.namespace(name), *map(str, command)],
                 cwd=folder,
-                env=self._environment(folder),
+                env=self._environment(folder) | {"XDG_CACHE_HOME": str(folder / "cache")},
                 stdin=subprocess.DEVNULL,
                 stdout=stream,
                 stderr=stream,
@@ -87,9 +89,9 @@ class Network:
         options = ["--nthreads", 1, "--no-nanny", "--no-dashboard", "--local-directory", self.folder / name / "dask"]
         return self.start(name, *DASK, "worker", self.scheduler, "--host", self.address(name), *options, *more)
 
-    def start_other_worker(self, name):
-        preload = self.folder / "other_version.py"
-        preload.write_text(OTHER_VERSION)
+    def start_other_worker(self, name, program=OTHER_VERSION):
+        preload = self.folder / f"other_{name}.py"
+        preload.write_text(program)
         return self.start_worker(name, "--preload", preload)
 
     def grade_all(self, submissions, out):

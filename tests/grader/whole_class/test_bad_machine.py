@@ -100,6 +100,14 @@ def test_a_torn_journal_is_told_and_costs_one_grading(tmp_path, monkeypatch):
     assert len(asked) == 1 and len((tmp_path / "out" / GRADEBOOK).read_bytes().splitlines()) == len(before.splitlines())
 
 
+def test_a_folder_with_the_report_on_similarity_is_no_stranger(exercise, tmp_path):
+    submissions = hand_in(tmp_path / "class", 2)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "similarity.csv").write_text("")
+    fill(submissions, tmp_path / "out")
+    assert (tmp_path / "out" / GRADEBOOK).exists()
+
+
 def test_two_instructors_are_told_of_one_another(tmp_path):
     with Journal(tmp_path):
         assert str(os.getpid()) in (tmp_path / HOLDER).read_text()

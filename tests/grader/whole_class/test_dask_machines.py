@@ -9,7 +9,7 @@ import time
 import psutil
 import pytest
 
-from gz_course.tests.grader.whole_class.machines import COURSE, Network
+from gz_course.tests.grader.whole_class.machines import COURSE, NO_SANDBOX, Network
 
 pytest.importorskip("distributed")
 pytestmark = [pytest.mark.proof, pytest.mark.timeout(1800)]
@@ -128,3 +128,21 @@ def test_the_scheduler_starts_again(network, submissions, alone, tmp_path):
         code, told = done(network.grade_all(submissions, out))
     assert code == 0, told
     assert (out / "gradebook.csv").read_bytes() == alone
+
+
+def test_a_worker_without_the_sandbox_grades_nobody(network, submissions, alone, tmp_path):
+    scheduler, out = network.start_scheduler(), tmp_path / "out"
+    bare = network.start_other_worker("a", NO_SANDBOX)
+    until(lambda: "Register worker" in scheduler.told.read_text(), scheduler, "the worker")
+    code, told = done(network.grade_all(submissions, out))
+    told = " ".join(told.split())
+    assert code == 2 and f"the Dask worker tcp://{network.address('a')}:" in told, told
+    assert "has no such sandbox" in told and "level B or better is demanded" in told
+    bare.kill()
+    network.start_worker("b")
+    run = network.grade_all(submissions, out)
+    until(lambda: lines(out) >= 2, run, "the second result")
+    network.start_other_worker("c", NO_SANDBOX)  # joins late, and would fail faster than the other one grades
+    code, told = done(run)
+    assert code == 0 and (out / "gradebook.csv").read_bytes() == alone, told
+    assert "not graded" not in told
