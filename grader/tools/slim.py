@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib.util
 import shutil
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -39,6 +40,8 @@ def unused() -> Iterator[Path]:
         for folder in (spec.submodule_search_locations or []) if spec else []:
             for pattern in patterns:
                 yield from Path(folder).glob(pattern)
+    if sys.prefix != sys.base_prefix:  # a virtual environment: its headers are those of the ROS wheels, for C++
+        yield from (path for path in Path(sys.prefix).glob("include/*") if not path.name.startswith("python"))
 
 
 def main() -> None:

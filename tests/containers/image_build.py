@@ -17,7 +17,7 @@ from pathlib import Path, PurePosixPath
 
 from gz_course.tests.containers.minimal_root import Layer
 
-PATH = "/usr/local/bin:/usr/bin:/bin"
+PATH = "/usr/local/bin:/usr/local/sbin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
 @dataclass

@@ -107,7 +107,7 @@ class Layer:
         own = ["unshare", "--mount", "--pid", "--fork", "--kill-child", *([] if network else ["--net"])]
         arguments = [":".join(map(str, self.below)), str(self.folder), str(user), "yes" if network else "no"]
         kept = {name: value for name, value in os.environ.items() if name.startswith("PIP_")}
-        plain = {"PATH": "/usr/local/bin:/usr/bin:/bin", "HOME": "/home/student", "LANG": "C.UTF-8"}
+        plain = {"PATH": "/usr/local/bin:/usr/sbin:/usr/bin:/bin", "HOME": "/home/student", "LANG": "C.UTF-8"}
         inside = [f"{name}={value}" for name, value in {**kept, **plain, **(environment or {})}.items()]
         return subprocess.run(
             [*own, "sh", "-c", _ENTER, "enter", *arguments, "/usr/bin/env", "-i", *inside, *words],

@@ -15,7 +15,12 @@ def test_only_what_is_named_goes(tmp_path, monkeypatch, capsys):
         (package / name).write_bytes(bytes(1_500_000))
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setattr(slim, "UNUSED", {"fat_package": ("libviewer*", "tests", "gone*"), "not_installed": ("*",)})
+    environment = tmp_path / "environment"
+    for name in ("python3.11", "rcl"):
+        (environment / "include" / name).mkdir(parents=True)
+    monkeypatch.setattr(sys, "prefix", str(environment))
     slim.main()
+    assert [path.name for path in environment.glob("include/*")] == ["python3.11"]
     assert sorted(path.name for path in package.iterdir()) == ["__init__.py", "libgood.so"]
     assert capsys.readouterr().out == "3 MB removed; grading needs none of it.\n"
     slim.main()

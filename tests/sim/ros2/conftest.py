@@ -148,6 +148,9 @@ def workspace(tmp_path):
     def add(name, text):
         path = library / name
         path.parent.mkdir(exist_ok=True)
+        if " " in sys.executable:  # the kernel ends the name of an interpreter there; pip writes its scripts like this
+            first = f"#!/bin/sh\n'''exec' \"{sys.executable}\" \"$0\" \"$@\"\n' '''"
+            text = text.replace(f"#!{sys.executable}", first)
         path.write_text(text)
         path.chmod(0o755)
         return {"AMENT_PREFIX_PATH": str(tmp_path / "install")}
