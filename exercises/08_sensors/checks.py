@@ -185,6 +185,8 @@ def why_beside(at, ahead, left, places, right):
     true = seen[np.arange(len(ahead)), which, 1]
     if known.sum() < FEWEST or near.any(axis=1).mean() < 0.9:
         return ""
+    if abs(float(np.median(left[known] / true[known])) - 1) <= 0.1:
+        return ""
     factors = {"": left[known] / true[known], " for each metre ahead": left[known] / true[known] * ahead[known]}
     for words, factor in factors.items():
         usual = float(np.median(factor))

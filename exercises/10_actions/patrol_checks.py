@@ -111,6 +111,10 @@ def rejects(recording, parameters):
     if (gate := no_patrol(run, expected)) and not any(run.one("accepted", goal) for goal in GOALS):
         if run.one("rejected", "patrol"):
             why = "Your server rejects every goal, a patrol that can be done, too"
+            if any("did not return a GoalResponse" in line.text for line in recording.lines("log/student")):
+                why += (
+                    ": goal_callback must return GoalResponse.ACCEPT or GoalResponse.REJECT, and returns something else"
+                )
             return Finding(False, expected, "also a good goal was rejected", explanation=why)
         return gate
     for goal, words in GOALS.items():
@@ -316,5 +320,6 @@ def cancel(recording, parameters):
         called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
         why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
     elif found["visited"] not in counts:
-        why = f"visited is {found['visited']}, but the robot had been at {min(counts)} of the waypoints when it was cancelled"
+        been = f"{min(counts)} of the waypoints when it was cancelled"
+        why = f"visited is {found['visited']}, but the robot had been at {been}"
     return Finding(not why, expected, measured, found["at"], explanation=why)

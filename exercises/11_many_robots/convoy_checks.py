@@ -94,7 +94,9 @@ def own_topics(recording, parameters):
     silent = [t for t in wanted if t.endswith(HEARS) and not next(b.to_ros for b in made if b.ros_topic == t)]
     if silent:
         paused = any(each["paused"] for each in ran(recording))
-        why = "without -r the simulator starts paused" if paused else "no robot of that name is in the world"
+        there = ", ".join(_there(recording)) or "none"
+        why = f"no robot of that name is in the world: there are {there}"
+        why = "without -r the simulator starts paused" if paused else why
         return Finding(False, expected, f"no message came on {silent[0]}", explanation=why)
     return Finding(True, expected, f"{len(wanted)} topics of {len(names)} robots")
 

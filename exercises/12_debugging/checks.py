@@ -168,6 +168,8 @@ def parks(recording, parameters):
     worst = last[np.argmax(np.abs(last - wanted))]
     right = abs(worst - wanted) <= tolerance
     why = ""
+    if not right and away[-1] > away[0] + 0.5:
+        why = "it drives away from the wall: the sign of linear.x is wrong"
     for shift, words in (
         (MOUNT[0], "the distance is measured from the lidar, and is asked for from base_link"),
         (-MOUNT[0], "the place of the lidar on the cart is taken with the wrong sign"),

@@ -64,8 +64,8 @@ def behind_return(tree: ast.AST) -> Iterator[Place]:
         for statement in block[ends[0] + 1 :] if ends else ():
             yield (
                 statement.lineno,
-                f"this line never runs: {ast.unparse(block[ends[0]])[:40]}, line {block[ends[0]].lineno}, ends the block "
-                "before it",
+                f"this line never runs: {ast.unparse(block[ends[0]])[:40]}, line {block[ends[0]].lineno}, ends the "
+                "block before it",
             )
             return
 

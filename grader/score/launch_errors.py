@@ -23,7 +23,7 @@ MEANINGS = (
         "in xacro, $(...) calls a command; the value of a property is written in braces, ${{{0}}}",
     ),
     (
-        re.compile(r"name '(\w+)' is not defined.*when evaluating expression", re.DOTALL),
+        re.compile(r"(?:xacro.*|^)name '(\w+)' is not defined", re.DOTALL),
         "no xacro:property above, and no parameter of this macro, is called {0}",
     ),
     (

@@ -121,7 +121,7 @@ def launch_fault(recording: Recording) -> str:
     if error := facts.get("error", ""):
         said = "The launch failed: " + shown(PLACE.sub(_place_in_words, error), 400)
         why = launch_meaning(error)
-        return f"{said}{'' if said.endswith('.') else '.'} What that means: {why}." if why else said
+        return f"{said}{'' if said.endswith(('.', '?')) else '.'} What that means: {why}." if why else said
     if facts and not facts["running"] and facts["exit_code"]:
         return f"The launch itself ended with exit code {facts['exit_code']}."
     return ""

@@ -28,6 +28,11 @@ MEANINGS = (
         "a message takes its fields by their names, as String(data='...') does",
     ),
     (
+        re.compile(r"AttributeError: '(?:float|int|str)' object has no attribute '([xyz])'"),
+        "a number stands where a vector belongs: linear and angular of a Twist have the fields x, y and z, as in "
+        "command.linear.{0} = 0.5",
+    ),
+    (
         re.compile(r"AttributeError: 'Subscription' object has no attribute 'publish'"),
         "a subscription only receives messages; create_publisher(TYPE, '/topic', 10) makes what publishes",
     ),
