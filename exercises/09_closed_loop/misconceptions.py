@@ -149,14 +149,17 @@ def nearest_anywhere(run):
         return ""
     on_side = np.where((bearings > -0.2) & (ranges > 0), ranges, np.inf).min(axis=1)
     on_other = np.where((bearings < -0.4) & (ranges > 0), ranges, np.inf).min(axis=1)
-    before = (times > lost[0] - 3.0) & (times < lost[0]) & (on_other < on_side - 0.05)
-    turning = np.interp(times, run.times, run.sign * run.turning)
-    if before.sum() < 3 or turning[before].mean() > -0.2:
+    nearer = np.flatnonzero((times > lost[0] - 3.0) & (times < lost[0]) & (on_other < on_side))
+    if not len(nearer):
+        return ""
+    first = nearer[0]
+    after = (run.times > times[first]) & (run.times < lost[0])
+    if (run.sign * run.turning[after]).mean() > -0.5:
         return ""
     other = "left" if run.side == "right" else "right"
     return (
-        f"at {times[before][0]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
-        f"{on_other[before][0]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
+        f"at {times[first]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
+        f"{on_other[first]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
     )
 
 
