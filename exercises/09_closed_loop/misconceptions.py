@@ -3,6 +3,7 @@
 import numpy as np
 
 SETTLED = 7.0  # [s] after the start
+FIRST = 15  # scans in which the robot was too near
 
 
 def explain(run):
@@ -132,11 +133,11 @@ def gaps(run):
     if not len(times):
         return ""
     beside = np.isposinf(ranges[:, np.abs(bearings - np.pi / 2) < 0.4]).any(axis=1)
-    near = (times > 3.0) & (np.interp(times, run.times, run.error) < -0.1)
-    if near.sum() < 15 or beside[near].mean() < 0.7 or beside[times > 3.0].mean() > 0.6:
+    near = np.flatnonzero((times > 3.0) & (np.interp(times, run.times, run.error) < -0.1))[:FIRST]
+    if len(near) < FIRST or beside[near].mean() < 0.8 or beside[times > 3.0].mean() > 0.6:
         return ""
     return (
-        f"the robot comes too near where its wall has gaps, first at {times[near & beside][0]:.1f} s: rays through "
+        f"the robot comes too near where its wall has gaps, first at {times[near[0]]:.1f} s: rays through "
         "them read inf, and inf in a mean is inf; use isfinite on each range"
     )
 
