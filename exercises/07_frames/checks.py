@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.true_pose import true_poses
 
 TOLERANCE = 0.05  # [m]
 CLOSE = 0.03  # [m] of the points of a misconception
@@ -89,10 +90,8 @@ def values(recording, name):
 
 def odom(recording, times):
     """Return the robot's true poses at times [s]; the frame odom is that of the world."""
-    at = recording.signal("truth/robot/x").times / 1e9
-    place = [np.interp(times, at, values(recording, f"truth/robot/{axis}")) for axis in "xyz"]
-    yaw = np.interp(times, at, values(recording, "truth/robot/yaw"))
-    return Frame(about_z(yaw), np.stack(place, -1))
+    poses = true_poses(recording, times, ("x", "y", "z", "yaw"))
+    return Frame(about_z(poses[:, 3]), poses[:, :3])
 
 
 def mounted(place, quaternion, count):

@@ -3,6 +3,7 @@
 import numpy as np
 
 SETTLED = 7.0  # [s] after the start
+FIRST = 15  # scans in which the robot was too near
 
 
 def explain(run):
@@ -12,6 +13,9 @@ def explain(run):
         in_degrees,
         on_off,
         other_side,
+        gaps,
+        nearest_anywhere,
+        counted_turns,
         stopped,
         old_distance,
         wrong_sign,
@@ -147,3 +151,70 @@ def elsewhere(run):
         f"the robot is {usual:.2f} m from the nearest point of its wall most of the time, where {asked:g} m is asked "
         "for: your node measures to something else than that point, such as one fixed direction, or a gain is too low"
     )
+
+
+def scans(run):
+    """Return times [s] (n,), bearings from ahead towards the side [rad] (m,) and ranges [m] (n, m) of all scans."""
+    times, ranges = run.recording.arrays("topics/lidar/scan/ranges")
+    first = run.recording.signal("topics/lidar/scan/angle_min").values
+    step = run.recording.signal("topics/lidar/scan/angle_increment").values
+    if not len(times):
+        return np.empty(0), np.empty(0), np.empty((0, 0))
+    return times / 1e9, run.sign * (first[0] + step[0] * np.arange(len(ranges[0]))), np.array(ranges)
+
+
+def gaps(run):
+    """Find out whether the robot is too near to its wall where rays beside it hit nothing, and there alone."""
+    times, bearings, ranges = scans(run)
+    if not len(times):
+        return ""
+    beside = np.isposinf(ranges[:, np.abs(bearings - np.pi / 2) < 0.4]).any(axis=1)
+    near = np.flatnonzero((times > 3.0) & (np.interp(times, run.times, run.error) < -0.1))[:FIRST]
+    if len(near) < FIRST or beside[near].mean() < 0.8 or beside[times > 3.0].mean() > 0.6:
+        return ""
+    return (
+        f"the robot comes too near where its wall has gaps, first at {times[near[0]]:.1f} s: rays through "
+        "them read inf, and inf in a mean is inf; use isfinite on each range"
+    )
+
+
+def nearest_anywhere(run):
+    """Find out whether the robot has left its wall when something on its other side was nearer."""
+    times, bearings, ranges = scans(run)
+    lost = run.times[(run.times > 3.0) & (run.error > 0.2)]
+    if not len(times) or not len(lost):
+        return ""
+    on_side = np.where((bearings > -0.2) & (ranges > 0), ranges, np.inf).min(axis=1)
+    on_other = np.where((bearings < -0.4) & (ranges > 0), ranges, np.inf).min(axis=1)
+    nearer = np.flatnonzero((times > lost[0] - 3.0) & (times < lost[0]) & (on_other < on_side))
+    if not len(nearer):
+        return ""
+    first = nearer[0]
+    after = (run.times > times[first]) & (run.times < lost[0])
+    if (run.sign * run.turning[after]).mean() > -0.5:
+        return ""
+    other = "left" if run.side == "right" else "right"
+    return (
+        f"at {times[first]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
+        f"{on_other[first]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
+    )
+
+
+def counted_turns(run):
+    """Find out whether the robot turns on the spot for longer than any corner needs."""
+    command = run.recording.signal("topics/cmd_vel/angular/z")
+    speed = run.recording.signal("topics/cmd_vel/linear/x").values
+    if len(speed) != len(command.values) or not len(speed):
+        return ""
+    spinning = (np.abs(speed) < 0.01) & (np.abs(command.values) > 0.3)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], spinning, [False]]).astype(int)))
+    times = command.times / 1e9
+    for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
+        turned = float(np.abs(command.values[start]) * (times[end] - times[start]))
+        if turned > 2.4 and np.ptp(command.values[start : end + 1]) < 1e-6:
+            return (
+                f"from {times[start]:.1f} s on the robot turned on the spot for {times[end] - times[start]:.1f} s, by "
+                f"{turned:.1f} rad: a turn that is counted in ticks lasts longer where ticks are missed; ask "
+                "the clock, or the lidar"
+            )
+    return ""

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.true_pose import heading
 
 SPACING = 0.04  # [m] between two points of a wall
 BEHIND = 0.8 * np.pi  # [rad] bearing beyond which a point does not count as on the side
@@ -83,10 +84,9 @@ def _wall(recording, entity):
     """Return the centre [m], the direction [rad], half the length and half the width [m] of a wall."""
     link, shape = recording.poses(entity.rpartition("/")[0]), recording.static(entity)
     half_length, half_width, _ = shape["Boxes3D:half_sizes"]
-    x, y, z, w = link.quaternions[0]
     return (
         link.positions[0, :2],
-        float(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))),
+        heading(link.quaternions[0]),
         half_length,
         half_width,
     )

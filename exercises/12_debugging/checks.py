@@ -118,8 +118,9 @@ def lidar_frame(recording, parameters):
 
 
 def all_alive(recording, parameters):
-    expected = "no process of the launch ends before Ctrl-C"
-    ended = launch_facts(recording).get("ended_early", [])
+    expected = "no process of the launch ends before Ctrl-C, and each ends with it"
+    facts = launch_facts(recording)
+    ended = facts.get("ended_early", [])
     if dead := list(deaths(recording)):
         return Finding(False, expected, f"{dead[0].process} ended with exit code {dead[0].code}{dead[0].words}")
     if ended:
@@ -128,6 +129,10 @@ def all_alive(recording, parameters):
         return Finding(False, expected, "no node publishes /cmd_vel: the driver never ran")
     if not _ends(recording, "subscription", LASER_SCAN):
         return Finding(False, expected, "no node takes scans: the ranger never ran")
+    if facts.get("escalated") or not facts.get("ended_itself", True):
+        who = ", ".join(facts["escalated"]) or "a program"
+        why = "a program that ignores SIGINT hangs when the system is stopped: let KeyboardInterrupt end it"
+        return Finding(False, expected, f"{who} did not end with Ctrl-C", explanation=why)
     return Finding(True, expected, "so it is")
 
 
@@ -155,6 +160,11 @@ def parks(recording, parameters):
     if recording.signal("truth/robot/distance").values[-1] < 0.1:
         heard = len(recording.signal("topics/wall/range"))
         why = "" if heard else "the ranger published no distance on /wall: it waits without end, or drops every scan"
+        if heard and not len(recording.signal("topics/cmd_vel/count")):
+            why = (
+                f"the driver got {heard} distances and published no command: one of its callbacks hangs, and waits for "
+                "what only another callback of the node could bring"
+            )
         return Finding(False, expected, "the cart stood still", explanation=why)
     qx, qy, qz, qw = wall.quaternions[0]
     normal = np.array([1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qz * qw)])

@@ -10,23 +10,12 @@ import numpy as np
 
 from gz_course.grader.printable import shown
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.floor import (
-    BOTTOM,
-    HEIGHT,
-    LEFT,
-    RESOLUTION,
-    WIDTH,
-    along,
-    cells,
-    grown,
-    hits,
-    middles,
-    misplaced,
-    scans,
-    shapes,
-    truth,
-)
+from gz_course.grader.score.floor import Grid, grown, hits, misplaced, scans, shapes
+from gz_course.grader.score.true_pose import true_poses
 
+RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM = 0.1, 100, 80, -5.0, -4.0  # [m], [cells], [cells], [m], [m]
+GRID = Grid(RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM)
+cells, middles, along = GRID.cells, GRID.middles, GRID.along
 # From Nav2's map server, as shares: https://docs.nav2.org/configuration/packages/configuring-map-server.html
 OCCUPIED, FREE = 65, 25  # at least, at most
 OFF = 0.15  # [m] from the middle of an occupied cell to an obstacle: one cell, and half a cell for its middle
@@ -247,7 +236,7 @@ def standing(recording):
 def reachable(recording):
     """Return the cells (80, 100) that are free in truth and connected with the start of the robot."""
     open_cells = (shapes(recording).nearest(middles()) > RESOLUTION).reshape(HEIGHT, WIDTH)
-    rooms = grown(grown(cells(truth(recording, np.zeros(1))[:, :2]) > 0)) & open_cells
+    rooms = grown(grown(cells(true_poses(recording, np.zeros(1))[:, :2]) > 0)) & open_cells
     size = 0
     while rooms.sum() > size:
         size = int(rooms.sum())

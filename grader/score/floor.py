@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gz_course.grader.record.reading import Poses, Recording
+from gz_course.grader.score.true_pose import heading, true_poses
 
-RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM = 0.1, 100, 80, -5.0, -4.0  # [m], [cells], [cells], [m], [m]
 SCAN = "topics/scan"
 Array = np.ndarray
 
@@ -60,6 +60,43 @@ class Scans:
         return np.where(self.hit, self.ranges, self.farthest)
 
 
+@dataclass(frozen=True)
+class Grid:
+    """The cells into which a floor is cut: their size [m], their numbers, and the corner of the first one [m]."""
+
+    resolution: float
+    width: int
+    height: int
+    left: float
+    bottom: float
+
+    def cells(self, points: Array) -> Array:
+        """Return how many of the points (n, 2) [m] lie in each cell."""
+        column = np.floor((points[:, 0] - self.left) / self.resolution).astype(int)
+        row = np.floor((points[:, 1] - self.bottom) / self.resolution).astype(int)
+        inside = (column >= 0) & (column < self.width) & (row >= 0) & (row < self.height)
+        counts = np.bincount(row[inside] * self.width + column[inside], minlength=self.width * self.height)
+        return counts.reshape(self.height, self.width)
+
+    def middles(self) -> Array:
+        """Return the middles of all cells (cells, 2) [m], row by row."""
+        x = self.left + (np.arange(self.width) + 0.5) * self.resolution
+        y = self.bottom + (np.arange(self.height) + 0.5) * self.resolution
+        columns, rows = np.meshgrid(x, y)
+        return np.stack([columns.ravel(), rows.ravel()], 1)
+
+    def along(self, scan: Scans, start: Array | float, end: Array | float, which: Array) -> Array:
+        """Return how many points lie in each cell: on the rays `which`, half a cell apart, from `start` to `end`."""
+        steps = np.arange(0, scan.farthest + 2, self.resolution / 2)
+        number, ray = np.nonzero(which)
+        first, last = np.broadcast_to(start, which.shape)[number, ray], np.broadcast_to(end, which.shape)[number, ray]
+        index, step = np.nonzero((steps >= first[:, None]) & (steps < last[:, None]))
+        direction = scan.pose[number, 2] + scan.angles[ray]
+        x = scan.pose[number[index], 0] + steps[step] * np.cos(direction[index])
+        y = scan.pose[number[index], 1] + steps[step] * np.sin(direction[index])
+        return self.cells(np.stack([x, y], 1))
+
+
 def shapes(recording: Recording) -> Shapes:
     """Return what stands in the world, without the ground and the robot."""
     boxes, cylinders = [], []
@@ -81,16 +118,8 @@ def shapes(recording: Recording) -> Shapes:
 
 def flat(poses: Poses) -> tuple[float, float, float]:
     """Return x, y [m] and yaw [rad] of the first of some poses."""
-    (x, y, _), (qx, qy, qz, qw) = poses.positions[0], poses.quaternions[0]
-    return float(x), float(y), float(np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)))
-
-
-def truth(recording: Recording, times: Array) -> Array:
-    """Return the robot's true x, y [m] and yaw [rad] at times [s], shape (n, 3)."""
-    at = recording.signal("truth/robot/x").times / 1e9
-    if not len(at):
-        return np.zeros((len(times), 3))
-    return np.stack([np.interp(times, at, recording.signal(f"truth/robot/{n}").values) for n in ("x", "y", "yaw")], 1)
+    x, y, _ = poses.positions[0]
+    return float(x), float(y), heading(poses.quaternions[0])
 
 
 def scans(recording: Recording, until: float) -> Scans:
@@ -104,21 +133,7 @@ def scans(recording: Recording, until: float) -> Scans:
     ranges = np.stack(rows[:number])
     hit = (ranges > values["range_min"][0]) & (ranges < values["range_max"][0])
     angles = values["angle_min"][0] + step[0] * np.arange(ranges.shape[1])
-    return Scans(truth(recording, stamps[:number]), ranges, angles, hit, float(values["range_max"][0]))
-
-
-def cells(points: Array) -> Array:
-    """Return how many of the points (n, 2) [m] lie in each cell."""
-    column = np.floor((points[:, 0] - LEFT) / RESOLUTION).astype(int)
-    row = np.floor((points[:, 1] - BOTTOM) / RESOLUTION).astype(int)
-    inside = (column >= 0) & (column < WIDTH) & (row >= 0) & (row < HEIGHT)
-    return np.bincount(row[inside] * WIDTH + column[inside], minlength=WIDTH * HEIGHT).reshape(HEIGHT, WIDTH)
-
-
-def middles() -> Array:
-    """Return the middles of all cells (cells, 2) [m], row by row."""
-    x, y = np.meshgrid(LEFT + (np.arange(WIDTH) + 0.5) * RESOLUTION, BOTTOM + (np.arange(HEIGHT) + 0.5) * RESOLUTION)
-    return np.stack([x.ravel(), y.ravel()], 1)
+    return Scans(true_poses(recording, stamps[:number]), ranges, angles, hit, float(values["range_max"][0]))
 
 
 def hits(scan: Scans, pose: Array | None = None, angles: Array | None = None, which: Array | None = None) -> Array:
@@ -129,18 +144,6 @@ def hits(scan: Scans, pose: Array | None = None, angles: Array | None = None, wh
     ends = scan.ends
     x, y = pose[:, :1] + ends * np.cos(direction), pose[:, 1:2] + ends * np.sin(direction)
     return np.stack([x[which], y[which]], 1)
-
-
-def along(scan: Scans, start: Array | float, end: Array | float, which: Array) -> Array:
-    """Return how many points lie in each cell: points on the rays `which`, half a cell apart, from `start` to `end`."""
-    steps = np.arange(0, scan.farthest + 2, RESOLUTION / 2)
-    number, ray = np.nonzero(which)
-    first, last = np.broadcast_to(start, which.shape)[number, ray], np.broadcast_to(end, which.shape)[number, ray]
-    index, step = np.nonzero((steps >= first[:, None]) & (steps < last[:, None]))
-    direction = scan.pose[number, 2] + scan.angles[ray]
-    x = scan.pose[number[index], 0] + steps[step] * np.cos(direction[index])
-    y = scan.pose[number[index], 1] + steps[step] * np.sin(direction[index])
-    return cells(np.stack([x, y], 1))
 
 
 def grown(marked: Array) -> Array:

@@ -24,6 +24,11 @@ TIPS = (
     "it stands, but tips over when it drives: its body has no mass (no <inertial>), its centre of mass is too high, or "
     "a wheel turns about another axis than its axle (a joint without <axis> turns about x)"
 )
+EXPLODES = (
+    "it is thrown about faster than anything falls: physics explodes, as with a controller of huge gain, parts that "
+    "overlap, or masses and inertias that are no body's"
+)
+FASTEST = 15.0  # [rad/s] at which a robot may turn over; a small one that falls is slower
 PUSHED = "something pushes it up: it starts inside the ground or another body, or its own parts overlap"
 
 
@@ -55,7 +60,9 @@ def stands(recording: Recording, parameters: Table) -> Finding:
     found = [(int(np.argmax(wrong)), wrong, amount, said, why) for wrong, amount, said, why in faults if wrong.any()]
     if found:
         first, wrong, amount, said, why = min(found, key=lambda each: each[0])
-        if why == FALLS and times[first] > until:
+        if why == FALLS and np.max(np.diff(leaning) / np.diff(times), initial=0.0) > FASTEST:
+            why = EXPLODES
+        elif why == FALLS and times[first] > until:
             why = TIPS
         worst = amount[np.argmax(np.abs(amount) * wrong)]
         at = float(times[first])

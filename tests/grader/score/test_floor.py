@@ -5,7 +5,11 @@ from math import pi
 import numpy as np
 import pytest
 
-from gz_course.grader.score.floor import HEIGHT, WIDTH, Scans, Shapes, along, cells, grown, hits, middles, misplaced
+from gz_course.grader.score.floor import Grid, Scans, Shapes, grown, hits, misplaced
+
+WIDTH, HEIGHT = 100, 80
+GRID = Grid(0.1, WIDTH, HEIGHT, -5.0, -4.0)
+cells, middles, along = GRID.cells, GRID.middles, GRID.along
 
 TURNED = Shapes([("crate", (1.0, 0.0, pi / 2), np.array([0.5, 0.1]))], [("pillar", (-2.0, 1.0, 0.0), 0.25)])
 

@@ -65,12 +65,19 @@ def _with_mass(robot: Robot, bodies: list[Body], diagnostics: Diagnostics) -> li
         else:
             kept.append(body)
     for culprit in dict.fromkeys(gone.values()):
-        link = robot.links[culprit]
-        has = "no <inertial>" if link.inertial is None else "no mass"
+        members = next(body.members for body in bodies if body.name == culprit)
+        massless = [each for each, _ in members if each.inertial is not None and each.inertial.mass <= 0.0]
+        link = massless[0] if massless else robot.links[culprit]
+        has = "no <inertial>" if link.inertial is None else f"no mass ({link.inertial.mass:g} kg)"
         others = [name for name, reason in gone.items() if reason == culprit and name != culprit]
         below = f", with everything it carries ({', '.join(others)})" if others else ""
-        sentence = f"link '{culprit}' has {has}, so Gazebo leaves it out{below}; give it an <inertial> with a mass"
-        if link.joint is not None and link.joint.kind == "fixed" and link.joint.parent != WORLD:
+        sentence = f"link '{link.name}' has {has}, so Gazebo leaves it out{below}; give it an <inertial> with a mass"
+        if (
+            link.name == culprit
+            and link.joint is not None
+            and link.joint.kind == "fixed"
+            and link.joint.parent != WORLD
+        ):
             sentence += f", or let joint '{link.joint.name}' be lumped"
         if not kept:
             raise SdfError(f"{link.element.where}: {sentence}: nothing is left of robot '{robot.name}'")

@@ -17,6 +17,7 @@ from gz_course.tests.sim.gz.sim.sdf.shapes_on_disk import write_obj
 SOLID = "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision>"
 SEEN = "<visual name='v'><geometry><box><size>1 1 1</size></box></geometry></visual>"
 WEIGHT = "<inertial><mass>1</mass></inertial>"
+WEIGHTLESS = "<inertial><mass>1</mass><inertia><ixx>1e-5</ixx><iyy>1e-5</iyy><izz>1e-5</izz></inertia></inertial>"
 JOINT = "<joint name='j' type='{}'><parent>a</parent><child>b</child>{}</joint>"
 AXIS = "<axis><xyz>0 1 0</xyz>{}</axis>"
 
@@ -66,6 +67,14 @@ def shaped(shape: str) -> str:
             pair(JOINT.format("continuous", AXIS.format("")), SOLID).replace("<link name='b'>", "\n<link name='b'>"),
             "f.sdf:3: link 'b' has no <inertial>, so it has a mass of 1 kg and moments of inertia of 1 kg m^2 (SDF's "
             "default), and joint 'j' moves slowly; state both or write <inertial auto='true'/>",
+        ),
+        (
+            pair(JOINT.format("continuous", AXIS.format("")), SOLID + WEIGHTLESS).replace(
+                "<link name='b'>", "\n<link name='b'>"
+            ),
+            "f.sdf:3: link 'b' has almost no moment of inertia: 1e-05 kg m^2, where its mass and shape make 0.17; joint "
+            "'j' then has next to nothing to turn, and physics can fail (the robot explodes); state that of its shape "
+            "in <inertia>",
         ),
         (
             f"\n<model name='m'><link name='l'>{SEEN}</link></model>",
