@@ -44,7 +44,7 @@ def grade(exercise, tmp_path, monkeypatch):
 
     def run(plan, readers=(), jobs=1):
         machine = Machine(exercise, {name: list(steps) for name, steps in plan.items()})
-        monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, jobs, lambda: False))
+        monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, lambda: jobs, lambda: False))
         readers = dict(readers)
         found = [
             Found(name, "", name, readers.get(name, lambda n=name: Selection(".", "x.py", {"x.py": n.encode()})))
@@ -116,7 +116,7 @@ def test_results_whose_files_somebody_deleted_are_graded_again(grade, tmp_path):
 def test_only_the_same_grading_is_not_done_again(exercise, tmp_path, grade, change, monkeypatch):
     grade({"jane": [65]})
     machine = Machine(exercise, {"jane": [70]})
-    monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, jobs, lambda: False))
+    monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, lambda: jobs, lambda: False))
     found = [Found("jane", "", "jane", lambda: Selection(".", "x.py", {"x.py": b"jane"}))]
     ClassRun(exercise, tmp_path / "out", **change).grade(found, lambda *_: None)
     assert machine.asked == ([] if change == {"trials": "public"} else ["jane"])
@@ -126,7 +126,7 @@ def test_a_folder_that_another_grading_has_taken_is_filled_again(exercise, tmp_p
     grade({"jane": [65]})
     machine = Machine(exercise, {"jane": [70]})
     with monkeypatch.context() as patch:
-        patch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, jobs, lambda: False))
+        patch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, lambda: jobs, lambda: False))
         found = [Found("jane", "", "jane", lambda: Selection(".", "x.py", {"x.py": b"jane"}))]
         ClassRun(exercise, tmp_path / "out", seed=1).grade(found, lambda *_: None)
     results, asked = grade({"jane": [65]})
@@ -137,7 +137,7 @@ def test_a_folder_that_another_grading_has_taken_is_filled_again(exercise, tmp_p
 def test_another_text_of_the_same_student_is_graded(exercise, tmp_path, grade, monkeypatch):
     grade({"jane": [65]})
     machine = Machine(exercise, {"jane": [70]})
-    monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, jobs, lambda: False))
+    monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, lambda: jobs, lambda: False))
     found = [Found("jane", "", "jane", lambda: Selection(".", "x.py", {"x.py": b"jane", "more.py": b""}))]
     (result,) = ClassRun(exercise, tmp_path / "out").grade(found, lambda *_: None)
     assert result["score"] == 70
