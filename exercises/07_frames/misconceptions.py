@@ -114,5 +114,8 @@ def apart(points, truth, seen, hits):
     if np.mean(np.abs(angles) <= SAME_WAY) >= SHARE and "z" in axes:
         usual = float(np.median(factors))
         times = f", {usual:.2f} times as far" if np.mean(np.abs(factors / usual - 1) <= 0.02) >= SHARE else ""
+        more = np.linalg.norm(seen, axis=1) - np.linalg.norm(hits, axis=1)
+        if np.mean(np.abs(more - np.median(more)) <= CLOSE / 2) >= SHARE:
+            times = f", all {abs(np.median(more)):.2f} m too {'far' if np.median(more) > 0 else 'near'}"
         return f"in the right directions from the scanner, but at other distances{times}"
     return f"right in {axes[-1]} only" if axes else ""

@@ -66,9 +66,23 @@ def no_stop(drive: Drive) -> str:
 
 
 @explains
+def drives_on_straight(drive: Drive) -> str:
+    """Find a turn that was ended while the drive was not."""
+    turning = np.flatnonzero(np.abs(drive.angular[:, 2]) > 0.01)
+    if not drive.moving.all() or not len(turning) or len(drive.times) - turning[-1] < 4:
+        return ""
+    return (
+        f"from {drive.times[turning[-1] + 1]:.2f} s on angular.z is 0, but linear.x stays at "
+        f"{drive.linear[-1, 0]:.2f} m/s: both must be 0 for a stop"
+    )
+
+
+@explains
 def never_ends(drive: Drive) -> str:
     """Find a drive that went on to the end of the run."""
     pushes = drive.pushes
+    if drives_on_straight(drive):
+        return ""
     if len(drive.times) < 4 or len(pushes) != 1 or np.isfinite(pushes[0][1]) or drive.ended - drive.times[-1] >= 0.8:
         return ""
     if np.ptp(drive.linear[drive.moving, 0]) > 0.1 * abs(drive.steady):

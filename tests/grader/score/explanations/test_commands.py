@@ -40,6 +40,7 @@ def scaled(linear, angular):
 
 
 WRONG = {
+    "linear.x stays at 0.50 m/s: both must be 0": drive(lambda now, calls: GO if now < 5.2 else (0.5, 0.0)),
     "50 commands came at the same moment": drive(lambda now, calls: [GO] * 50 if calls == 0 else None),
     "first turns and then drives": drive(
         lambda now, calls: (0.0, 0.1) if now < 2.7 else (0.5, 0.0) if now < 5.2 else STOP
