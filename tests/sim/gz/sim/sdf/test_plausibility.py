@@ -72,9 +72,9 @@ def shaped(shape: str) -> str:
             pair(JOINT.format("continuous", AXIS.format("")), SOLID + WEIGHTLESS).replace(
                 "<link name='b'>", "\n<link name='b'>"
             ),
-            "f.sdf:3: link 'b' has almost no moment of inertia: 1e-05 kg m^2, where its mass and shape make 0.17; joint "
-            "'j' then has next to nothing to turn, and physics can fail (the robot explodes); state that of its shape "
-            "in <inertia>",
+            "f.sdf:3: link 'b' has almost no moment of inertia: 1e-05 kg m^2, where its mass and shape make 0.17; "
+            "joint 'j' then has next to nothing to turn, and physics can fail (the robot explodes); "
+            "state that of its shape in <inertia>",
         ),
         (
             f"\n<model name='m'><link name='l'>{SEEN}</link></model>",
