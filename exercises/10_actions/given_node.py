@@ -63,7 +63,7 @@ class Dispatcher(Node):
     def begin(self):
         self.say("interface", "", fault="")
         patrol = self.script["patrol"]
-        if not self.client.server_is_ready():
+        if not self.client.wait_for_server(timeout_sec=0.0):  # not of the run's time, but until discovery is done
             self.say("no_server", "")
             return
         self.send("empty", [], patrol["speed"])
