@@ -3,6 +3,7 @@
 import numpy as np
 
 SETTLED = 7.0  # [s] after the start
+KEPT = 0.08  # [m] within which a distance is kept
 FIRST = 15  # scans in which the robot was too near
 
 
@@ -17,6 +18,7 @@ def explain(run):
         nearest_anywhere,
         counted_turns,
         stopped,
+        against_a_wall,
         old_distance,
         wrong_sign,
         wound_up,
@@ -58,7 +60,9 @@ def on_off(run):
 
 def other_side(run):
     late = run.times > SETTLED
-    if np.median(np.abs(run.error[late])) < 0.3 or np.median(np.abs(run.other_side - run.wanted)[late]) > 0.15:
+    own = np.mean(np.abs(run.error[late]) < KEPT)
+    other = np.mean(np.abs(run.other_side - run.wanted)[late] < KEPT)
+    if own > 0.15 or other < 0.3:
         return ""
     wrong = "right" if run.side == "left" else "left"
     return f'side is "{run.side}", but the robot keeps its distance from the wall on its {wrong}'
