@@ -18,12 +18,12 @@ def explain(run):
         nearest_anywhere,
         counted_turns,
         stopped,
-        against_a_wall,
         old_distance,
         wrong_sign,
         wound_up,
         saturated,
         swings,
+        against_a_wall,
         elsewhere,
     )
     return next((said for look in looks if (said := look(run))), "")
