@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from gz_course.grader.score.check import Finding, perform_all
 from gz_course.grader.score.diagnosis import diagnose, silent
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
-SPOILT: dict[str, Any] = {"passed": False, "measured": "not counted: the run was tampered with", "at_s": None}
+SPOILT = Finding(False, "a run that nobody tampers with", "not counted: the run was tampered with")
 TRUTH = ("x", "y", "z", "qw", "qx", "qy", "qz")
 
 
@@ -47,14 +46,16 @@ class Score:
 
 def score(recording: Recording, exercise: Exercise) -> Score:
     """Apply every check of the manifest and name the most likely fault."""
-    never_ran = bool(recording.facts().get("fault"))
     specs = exercise.checks
-    findings = [NOT_RUN] * len(specs) if never_ran else perform_all(specs, recording, exercise.folder)
-    checks = tuple(map(CheckResult, specs, findings))
     explained = find_kind(exercise.kind).diagnosis()
     outcome = explained.outcome(recording)
-    if outcome == "tamper":
-        checks = tuple(CheckResult(check.spec, replace(check.finding, **SPOILT)) for check in checks)
+    if recording.facts().get("fault"):
+        findings = [NOT_RUN] * len(specs)
+    elif outcome == "tamper":  # what was forged may be nothing that a check can read
+        findings = [SPOILT] * len(specs)
+    else:
+        findings = perform_all(specs, recording, exercise.folder)
+    checks = tuple(map(CheckResult, specs, findings))
     failed = [check for check in checks if not check.finding.passed]
     if outcome == "timeout" and not failed:
         outcome = "graded"  # all that was asked for was seen, whatever could not be followed beside it
