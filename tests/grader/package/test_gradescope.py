@@ -105,6 +105,7 @@ def test_a_submission_that_cannot_be_read(autograder):
     assert "could not be read" in results["output"] and f"holds no {FILE}" in results["output"]
 
 
+@pytest.mark.proof
 def test_a_fault_that_is_not_the_students(autograder, solved, tmp_path):
     manifest = tmp_path / "source/course/exercises/03_teleop/exercise.toml"
     manifest.write_text(manifest.read_text().replace("lidar_room.sdf", "nowhere.sdf"))

@@ -82,6 +82,7 @@ def test_what_the_command_refuses_is_our_fault_and_told(grade_one, short_course)
     assert fault.startswith("the grading ended with exit code 2: course: there is no pace 'sideways'")
 
 
+@pytest.mark.proof
 def test_when_its_worker_is_killed_a_grading_ends_at_once(grade_one, endless, tmp_path, running_in):
     worker = grade_one(endless, "--pace", "realtime", deadline=ENDLESS)
     while not list((tmp_path / "tmp").rglob("*.rrd.part")):  # until it is at work

@@ -84,7 +84,13 @@ def workspace(tmp_path, free_domain):
 
 @pytest.mark.skipif(" " in sys.executable, reason="colcon's setup files do not work where Python's path has blanks")
 @pytest.mark.parametrize(
-    ("options", "shell"), [((), "sh"), ((), "bash"), (("--symlink-install",), "bash")], ids=lambda value: str(value)
+    ("options", "shell"),
+    [
+        pytest.param((), "sh", marks=pytest.mark.proof),
+        pytest.param((), "bash", marks=pytest.mark.proof),
+        (("--symlink-install",), "bash"),
+    ],
+    ids=lambda value: str(value),
 )
 def test_what_colcon_has_built_is_found_and_runs(workspace, options, shell):
     folder, environment = workspace

@@ -133,6 +133,7 @@ def test_simulator_and_bridge_together(start, tmp_path):
     assert "[ns.my_bridge]: ready: 1 bridge" in lines_until(process, "ready:")
 
 
+@pytest.mark.proof
 def test_a_server_from_a_text_and_a_model_spawned_into_it(start):
     text = "<sdf version='1.9'><world name='small'/></sdf>"
     arguments = [f"world_sdf_string:={text}", "initial_sim_time:=5.0", "verbosity_level:=3"]

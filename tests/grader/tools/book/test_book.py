@@ -86,6 +86,7 @@ def test_the_book_is_written_and_the_course_left_as_it_is(course, tmp_path):
     assert "<code>never_stops</code>" in front
 
 
+@pytest.mark.proof
 def test_a_students_copy_has_a_book_without_variants(course, tmp_path):
     done = book(course("1", private=False), tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
