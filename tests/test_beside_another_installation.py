@@ -108,6 +108,7 @@ def test_the_doctor_sees_it(run):
     assert "internal error" not in done.stderr
 
 
+@pytest.mark.proof
 def test_diagnose_looks_around(run):
     done = run(BIN / "course", "diagnose")
     assert "internal error" not in done.stdout + done.stderr
