@@ -269,12 +269,12 @@ def test_scoring_and_reports_reach_no_running_part_through_others():
 
 @functools.cache
 def code():
-    """Every Python file of ours, submissions that are test cases aside."""
+    """Every Python file of ours, submissions that are test cases and what chapter 10 builds aside."""
     return sorted(
         path
         for folder in CODE_FOLDERS
         for path in (ROOT / folder).rglob("*.py")
-        if not {"__pycache__", ".ipynb_checkpoints"} & set(path.parts) and "cases" not in path.parts
+        if not {"__pycache__", ".ipynb_checkpoints", "turn_ws"} & set(path.parts) and "cases" not in path.parts
     )
 
 
