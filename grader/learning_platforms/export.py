@@ -13,6 +13,7 @@ from gz_course.grader.learning_platforms.lateness import UNKNOWN, absolute, late
 from gz_course.grader.learning_platforms.matching import Match, match
 from gz_course.grader.learning_platforms.roster import Roster, read_roster
 from gz_course.grader.learning_platforms.submission_times import Submitted, submission_times
+from gz_course.grader.process.whole_file import write_whole
 from gz_course.grader.whole_class.found import CANVAS, CANVAS_LATE
 from gz_course.grader.whole_class.gradebook import read_gradebook
 
@@ -94,12 +95,8 @@ def _moodle_time(roster: Roster, each: Match) -> Submitted | None:
 
 def write(path: Path, text: str) -> None:
     """Write a file as a whole or not at all. Raises UsageError if it cannot be written."""
-    part = path.with_name(f".{path.name}.part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        part.write_text(text, encoding="utf-8", errors="replace", newline="")
-        part.replace(path)
+        write_whole(path, text.encode(errors="replace"))
     except OSError as error:
         raise UsageError(f"{path} cannot be written: {error.strerror}") from None
-    finally:
-        part.unlink(missing_ok=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import stat
 import zipfile
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import chosen_trials
+from gz_course.grader.process.whole_file import write_whole
 
 START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
 WHEN = (1980, 1, 1, 0, 0, 0)  # date of every file in the zip, so that the same exercise gives the same bytes
@@ -25,19 +27,17 @@ def write_zip(target: Path, contents: dict[str, bytes]) -> None:
 
     Raises UsageError if it cannot be written.
     """
-    part = target.with_name(f".{target.name}.part")
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in sorted(contents.items()):
+            info = zipfile.ZipInfo(name, WHEN)
+            info.compress_type = zipfile.ZIP_DEFLATED
+            info.external_attr = (stat.S_IFREG | (0o755 if data.startswith(b"#!") else 0o644)) << 16
+            archive.writestr(info, data)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         if target.is_dir():
             raise UsageError(f"{target} is a folder; give the name of a file, such as {target / 'autograder.zip'}")
-        with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, data in sorted(contents.items()):
-                info = zipfile.ZipInfo(name, WHEN)
-                info.compress_type = zipfile.ZIP_DEFLATED
-                info.external_attr = (stat.S_IFREG | (0o755 if data.startswith(b"#!") else 0o644)) << 16
-                archive.writestr(info, data)
-        part.replace(target)
+        write_whole(target, content.getvalue())
     except OSError as error:
         raise UsageError(f"{target} cannot be written: {error.strerror}") from None
-    finally:
-        part.unlink(missing_ok=True)

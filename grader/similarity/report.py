@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from markupsafe import Markup
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.printable import shown, storable
+from gz_course.grader.process.whole_file import write_whole
 from gz_course.grader.similarity.pairs import Pair, Similar
 from gz_course.grader.similarity.tokens import Text
 from gz_course.grader.whole_class.gradebook import cell
@@ -42,12 +42,7 @@ def write_report(out: Path, title: str, submitted: Sequence[Submitted], similar:
             (CSV, as_csv(submitted, similar)),
             (PAGE, as_page(title, submitted, similar, threshold)),
         ):
-            part = out / f".{name}.part"
-            with part.open("w", encoding="utf-8", newline="") as stream:
-                stream.write(text)
-                stream.flush()
-                os.fsync(stream.fileno())
-            part.replace(out / name)
+            write_whole(out / name, text.encode(), sole_writer=True)
     except OSError as error:
         raise UsageError(f"{out} cannot be written: {error.strerror}") from None
 

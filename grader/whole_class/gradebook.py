@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +19,7 @@ from typing import Any
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.printable import shown
+from gz_course.grader.process.whole_file import write_whole
 
 GRADEBOOK = "gradebook.csv"
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "\N{FULLWIDTH EQUALS SIGN}", "\N{FULLWIDTH PLUS SIGN}",
@@ -98,10 +98,6 @@ def _unguarded(text: str) -> str:
 
 def write_gradebook(folder: Path, text: str) -> Path:
     """Write the gradebook atomically: a reader sees the old one or the new one, never a part."""
-    path, part = folder / GRADEBOOK, folder / f".{GRADEBOOK}.part"
-    with part.open("w", encoding="utf-8", newline="") as stream:
-        stream.write(text)
-        stream.flush()
-        os.fsync(stream.fileno())
-    part.replace(path)
+    path = folder / GRADEBOOK
+    write_whole(path, text.encode(), sole_writer=True)
     return path

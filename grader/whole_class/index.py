@@ -9,7 +9,6 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from markupsafe import Markup
 
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.printable import shown
+from gz_course.grader.process.whole_file import write_whole
 from gz_course.grader.report.format import formats
 from gz_course.grader.whole_class.grading import REPORT
 
@@ -63,9 +63,4 @@ def _row(exercise: Exercise, result: dict[str, Any]) -> list[Any]:
 
 def write_index(folder: Path, exercise: Exercise, results: Sequence[dict[str, Any]], reports: Sequence[str]) -> None:
     """Write the page atomically: a reader sees the old one or the new one, never a part."""
-    part = folder / f".{INDEX}.part"
-    with part.open("w", encoding="utf-8") as stream:
-        stream.write(as_page(exercise, results, reports))
-        stream.flush()
-        os.fsync(stream.fileno())
-    part.replace(folder / INDEX)
+    write_whole(folder / INDEX, as_page(exercise, results, reports).encode(), sole_writer=True)
