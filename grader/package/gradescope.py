@@ -15,8 +15,7 @@ from pathlib import Path
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.bundle import bundle
-from gz_course.grader.exercise.trial import TRIALS
-from gz_course.grader.package.question import seconds_for, write_zip
+from gz_course.grader.package.question import all_trials, filled, seconds_for, write_zip
 from gz_course.grader.run.sandbox import OFFICIAL, level_module
 from gz_course.grader.submission.intake import is_junk
 
@@ -34,8 +33,7 @@ def package(exercise: Exercise, target: Path, trials: str | None = None, demand:
     Raises UsageError if the zip cannot be written, if there are no such trials, or without a checkout of the course.
     """
     level_module(demand)
-    if trials is None:
-        trials = "all" if (exercise.twin / TRIALS).is_file() else "public"
+    trials = all_trials(exercise) if trials is None else trials
     seconds = seconds_for(exercise, trials)
     files, choice = bundle(exercise, trials)
     options = ["--trials", choice, "--demand", demand]
@@ -48,10 +46,7 @@ def package(exercise: Exercise, target: Path, trials: str | None = None, demand:
     contents = {f"course/{name}": data for name, data in (_programs() | files).items()}
     contents["course/README.md"] = f"Autograder of {exercise.name}: {exercise.title}\n".encode()
     for name in PROGRAMS:
-        text = (HERE / name).read_text(encoding="utf-8")
-        for key, value in values.items():
-            text = text.replace(f"@{key}@", value)
-        contents[name] = text.encode()
+        contents[name] = filled(HERE / name, values)
     write_zip(target, contents)
     return sorted(contents)
 

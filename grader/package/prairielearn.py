@@ -18,8 +18,7 @@ from pathlib import Path
 
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.bundle import bundle
-from gz_course.grader.exercise.trial import TRIALS
-from gz_course.grader.package.question import seconds_for, write_zip
+from gz_course.grader.package.question import all_trials, filled, seconds_for, write_zip
 from gz_course.grader.run.sandbox import OFFICIAL, level_module
 
 RUN = "tests/run.sh"
@@ -37,20 +36,17 @@ def package(
     Raises UsageError if the zip cannot be written or if there are no such trials.
     """
     level_module(demand)
-    if trials is None:
-        trials = "all" if (exercise.twin / TRIALS).is_file() else "public"
+    trials = all_trials(exercise) if trials is None else trials
     seconds = min(round(seconds_for(exercise, trials)) + SPARE, LONGEST)
     files, choice = bundle(exercise, trials)
-    text = PROGRAM.read_text(encoding="utf-8")
     values = {
         "DEADLINE": str(seconds - SPARE),
         "EXERCISE": shlex.quote(exercise.name),
         "OPTIONS": shlex.join(["--trials", choice, "--demand", demand]),
     }
-    for key, value in values.items():
-        text = text.replace(f"@{key}@", value)
     contents = {f"tests/course/{name}": data for name, data in files.items()}
-    contents |= {RUN: text.encode(), "info.json": _info(exercise, image, seconds), "question.html": _page(exercise)}
+    contents |= {RUN: filled(PROGRAM, values), "info.json": _info(exercise, image, seconds)}
+    contents["question.html"] = _page(exercise)
     contents |= {f"clientFilesQuestion/{_flat(name)}": (exercise.folder / name).read_bytes() for name in exercise.parts}
     contents = {f"{exercise.name}/{name}": data for name, data in contents.items()}
     write_zip(target, contents)

@@ -1,4 +1,4 @@
-"""What the packages for all services share: the time that one grading may take, and the writing of the zip."""
+"""What the packages for all services share: trials, the time that one grading may take, programs, and the zip."""
 
 from __future__ import annotations
 
@@ -9,11 +9,24 @@ from pathlib import Path
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.exercise.trial import chosen_trials
+from gz_course.grader.exercise.trial import TRIALS, chosen_trials
 from gz_course.grader.process.whole_file import write_whole
 
 START_UP, PER_TRIAL, WALL_FACTOR = 60.0, 30.0, 2.0  # [s], [s] and wall seconds per simulated second of a grading
 WHEN = (1980, 1, 1, 0, 0, 0)  # date of every file in the zip, so that the same exercise gives the same bytes
+
+
+def all_trials(exercise: Exercise) -> str:
+    """Return the choice of all trials that there are, hidden ones included."""
+    return "all" if (exercise.twin / TRIALS).is_file() else "public"
+
+
+def filled(program: Path, values: dict[str, str]) -> bytes:
+    """Return a program with each `@KEY@` replaced by its value."""
+    text = program.read_text(encoding="utf-8")
+    for key, value in values.items():
+        text = text.replace(f"@{key}@", value)
+    return text.encode()
 
 
 def seconds_for(exercise: Exercise, trials: str) -> float:
