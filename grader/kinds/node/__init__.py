@@ -71,7 +71,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     places = {
         "conditions": conditions(content),
         "origins": origins(content),
-        "slips": slips(content),
+        "slips": slips(content, exercise.duration),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
         "whole_numbers": whole_numbers(content, float_fields(heard)),

@@ -22,8 +22,10 @@ IGNORED: dict[str, Callable[[str], str]] = {
 
 def difference(said: str, wanted: str) -> str:
     """Return in what a text differs from the wanted one; empty if it does not, or in more than can be named."""
-    if said == wanted or not said:
+    if said == wanted:
         return ""
+    if not said:
+        return "the text is empty: nothing was put into it before publish()"
     if said.strip() == wanted:
         return "the text has white space before or after it"
     if said.startswith(("std_msgs", "b'", "{'data", "data:")) or "String(data=" in said:
@@ -35,7 +37,9 @@ def difference(said: str, wanted: str) -> str:
             for name in names:
                 one, other = IGNORED[name](one), IGNORED[name](other)
             if one == other:
-                return f"the text differs in {' and '.join(names)} only"
+                coded = said[:1] == said[-1:] == '"' or said[:1] == said[-1:] == "'"
+                why = ", as json.dumps() and repr() put them round it" if coded else ""
+                return f"the text differs in {' and '.join(names)} only{why}"
     if nearest_name(said, [wanted], 0.8):
         return "the text is nearly right: compare it letter by letter"
     if wanted in said:
@@ -54,7 +58,9 @@ def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
     for factor, words in ((2, "twice"), (3, "three times"), (0.5, "half"), (0.1, "a tenth of"), (10, "ten times")):
         if abs(first - factor * middle) <= 0.06 * factor * middle:
             return f"the message came after {first:.2f} s, {words} the {middle:g} s that are asked for"
-    return f"the message came too {'soon' if first < start else 'late'}"
+    if first < start:
+        return f"the message came at {first:.2f} s, {start - first:.2f} s too soon"
+    return f"the message came at {first:.2f} s, {first - end:.2f} s too late"
 
 
 def too_many(times: np.ndarray, ended: float) -> str:

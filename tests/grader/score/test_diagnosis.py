@@ -69,7 +69,8 @@ def test_an_exception_with_its_place_in_the_students_file(told):
     assert told(exit_code=1, exit_at=1.25, lines=["[INFO] [t]: hi", *TRACE]) == (
         "student_error",
         "Your node died at 1.25 s of simulated time with ZeroDivisionError: division by zero "
-        "(teleop_node.py, line 24).",
+        "(teleop_node.py, line 24: speed = 1 / 0). What that means: the divisor is 0 here: of a list that may be "
+        "empty, len() is asked first; time that has passed may be 0 in the first call.",
     )
 
 
@@ -77,8 +78,8 @@ def test_an_error_whose_words_do_not_say_what_to_change_is_explained(told):
     error = "TypeError: Hello.say_hello() takes 0 positional arguments but 1 was given"
     _, sentence = told(lines=[*TRACE[:-1], error], exit_code=1, exit_at=1.5, submission="teleop_node.py")
     assert sentence.endswith(
-        f"with {error} (teleop_node.py, line 24). What that means: a method gets the object itself as its first "
-        "argument: def say_hello(self)."
+        f"with {error} (teleop_node.py, line 24: speed = 1 / 0). What that means: a method gets the object itself as "
+        "its first argument: def say_hello(self)."
     )
 
 

@@ -1,0 +1,56 @@
+"""What a traceback tells: the error, the student's line that led to it, and what to change there.
+
+Source: the form of tracebacks of CPython 3.11.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from gz_course.grader.printable import shown
+from gz_course.grader.score.python_errors import meaning
+
+FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
+LONGEST_CODE = 70  # characters of the student's line that are quoted
+
+
+@dataclass(frozen=True)
+class Crash:
+    """An error with the student's line: its `file`, `line` and `code`. `own`: the error was raised in that line."""
+
+    error: str
+    file: str = ""
+    line: str = ""
+    code: str = ""
+    own: bool = False
+
+    @property
+    def place(self) -> str:
+        if not self.file:
+            return ""
+        return f"{self.file}, line {self.line}{f': {shown(self.code, LONGEST_CODE)}' if self.code else ''}"
+
+    @property
+    def meaning(self) -> str:
+        """What to change; empty if it is not known."""
+        return meaning(self.error, self.code if self.own else "")
+
+
+def read_crash(lines: list[str], file: str) -> Crash | None:
+    """Return the last crash that the output of a program tells, given the name of the student's file; None if none."""
+    starts = [i for i, line in enumerate(lines) if line.startswith(("Traceback (most recent", '  File "'))]
+    if not starts:
+        return None
+    # The last block that begins a traceback; a syntax error found at run time has no first line.
+    begin = max((i for i in starts if lines[i].startswith("Traceback")), default=starts[0])
+    frames: list[tuple[str, str, str]] = []
+    for i, line in enumerate(lines[begin:], begin):
+        if match := FRAME.match(line):
+            after = lines[i + 1] if i + 1 < len(lines) else ""
+            code = after.strip() if after.startswith("    ") and not FRAME.match(after) else ""
+            frames.append((match[1].rpartition("/")[2], match[2], code))
+        elif line and not line.startswith((" ", "Traceback")):
+            mine = [frame for frame in frames if frame[0] == file] or frames
+            return Crash(line, *mine[-1], own=mine[-1] is frames[-1]) if mine else Crash(line)
+    return None
