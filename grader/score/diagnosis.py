@@ -5,7 +5,6 @@ The evidence are the facts in the recording: the node's endpoints, how its proce
 
 from __future__ import annotations
 
-import re
 import signal
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -16,9 +15,8 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.launched import launch_fault
 from gz_course.grader.score.python_errors import meaning
+from gz_course.grader.score.tracebacks import last_traceback, read_traceback
 from gz_course.sim.did_you_mean import nearest_name
-
-FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
 # What a program did that was ended for breaking a limit.
 LIMITS = {
@@ -131,11 +129,8 @@ def died(recording: Recording, facts: dict[str, Any]) -> str:
     if facts.get("hid"):
         return f"Your node's process closed the descriptors it was started with {when}; it was ended and not followed."
     lines = [line.text for line in recording.lines("log/student")]
-    starts = [i for i, line in enumerate(lines) if line.startswith(("Traceback (most recent", '  File "'))]
-    if code > 0 and starts:
-        # The last block that begins a traceback; a syntax error found at run time has no first line.
-        begin = max((i for i in starts if lines[i].startswith("Traceback")), default=starts[0])
-        error, places = _read_traceback(lines[begin:])
+    if code > 0 and (block := last_traceback(lines)):
+        error, places = read_traceback(block)
         file = str(recording.properties("run").get("submission"))
         mine = [place for place in places if place[0] == file] or places
         place = f" ({mine[-1][0]}, line {mine[-1][1]})" if mine else ""
@@ -144,17 +139,6 @@ def died(recording: Recording, facts: dict[str, Any]) -> str:
             return shown(f"Your node died {when} with {error}{place}.{advice}")
     how = f"was killed by {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
     return f"Your node's process {how} {when}, before the exercise was over."
-
-
-def _read_traceback(lines: list[str]) -> tuple[str, list[tuple[str, str]]]:
-    """Return the first line of the error a traceback ends in, and the (file name, line) of each frame."""
-    places = []
-    for line in lines:
-        if match := FRAME.match(line):
-            places.append((match.group(1).rpartition("/")[2], match.group(2)))
-        elif line and not line.startswith((" ", "Traceback")):
-            return line, places
-    return "", places
 
 
 def _signal_name(number: int) -> str:
