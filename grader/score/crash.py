@@ -6,12 +6,14 @@ Source: the form of tracebacks of CPython 3.11.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gz_course.grader.printable import shown
 from gz_course.grader.score.python_errors import meaning
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
+INSTALLED = ("/site-packages/", "/lib/python3", "/sim/", "/gz_course/", "<")  # parts of paths of installed code
 LONGEST_CODE = 70  # characters of the student's line that are quoted
 
 
@@ -37,8 +39,11 @@ class Crash:
         return meaning(self.error, self.code if self.own else "")
 
 
-def read_crash(lines: list[str], file: str) -> Crash | None:
-    """Return the last crash that the output of a program tells, given the name of the student's file; None if none."""
+def read_crash(lines: Sequence[str], file: str = "") -> Crash | None:
+    """Return the last crash that the output of a program tells; None if there is none.
+
+    The place is in the file of this name; without a name, or where it is not in there, in code that is not installed.
+    """
     starts = [i for i, line in enumerate(lines) if line.startswith(("Traceback (most recent", '  File "'))]
     if not starts:
         return None
@@ -49,8 +54,16 @@ def read_crash(lines: list[str], file: str) -> Crash | None:
         if match := FRAME.match(line):
             after = lines[i + 1] if i + 1 < len(lines) else ""
             code = after.strip() if after.startswith("    ") and not FRAME.match(after) else ""
-            frames.append((match[1].rpartition("/")[2], match[2], code))
+            frames.append((match[1], match[2], code))
         elif line and not line.startswith((" ", "Traceback")):
-            mine = [frame for frame in frames if frame[0] == file] or frames
-            return Crash(line, *mine[-1], own=mine[-1] is frames[-1]) if mine else Crash(line)
+            return _crash(line, frames, file)
     return None
+
+
+def _crash(error: str, frames: list[tuple[str, str, str]], file: str) -> Crash:
+    named = [frame for frame in frames if file and frame[0].rpartition("/")[2] == file]
+    mine = named or [frame for frame in frames if not any(part in frame[0] for part in INSTALLED)] or frames
+    if not mine:
+        return Crash(error)
+    path, line, code = mine[-1]
+    return Crash(error, path.rpartition("/")[2], line, code, own=mine[-1] is frames[-1])

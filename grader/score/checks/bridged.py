@@ -42,7 +42,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     if not candidates:
         died = next((each for each in deaths(recording) if each.process == "parameter_bridge"), None)
         if died is not None and not made:
-            why = looked_elsewhere(died.said)
+            why = died.why
             measured = f"parameter_bridge ended with exit code {died.code}{died.words}"
             return Finding(False, expected, measured, explanation=why)
         said = logged_error(recording, "parameter_bridge")

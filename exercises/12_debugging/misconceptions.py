@@ -1,0 +1,108 @@
+"""What a system with one more fault measures and commands: each function names the misconception that fits, or nothing.
+
+Distances are in metres, speeds in metres per second.
+"""
+
+import math
+
+import numpy as np
+
+CLOSE = 0.03  # [m] of distances that are taken for equal; the noise of the lidar is 0.005 m
+SHARE = 0.9  # of the values that a misconception must fit
+FEWEST = 5  # values; fewer may fit by chance
+GAIN = 1.5  # [1/s] of the driver as it was given
+FASTEST = 0.6  # [m/s] of the driver as it was given
+STANDS = 0.01  # [m/s]
+HEIGHT = 0.06  # [m] of base_link above the ground
+FRONT = 0.2  # [m] from base_link
+
+
+def of_a_mount(seen, mount, sign):
+    """Explain a wrong place of the lidar in base_link; `sign` is -1 if base_link is the child of the transform."""
+    if math.dist([-each for each in seen], mount) < 0.005:
+        if sign < 0:
+            return "the transform is inverted: parent and child are swapped"
+        return (
+            "the transform is inverted: its numbers are the place of base_link, seen from lidar_link; they must be "
+            "that of the child, seen from its parent"
+        )
+    for factor, unit in ((1000, "millimetres"), (100, "centimetres")):
+        if math.dist([each / factor for each in seen], mount) < 0.005:
+            return f"the transform is given in {unit}; tf2 takes metres"
+    wrong = [name for name, one, other in zip("xyz", seen, mount, strict=True) if abs(one + other) < 0.005 < abs(one)]
+    others = [name for name, one, other in zip("xyz", seen, mount, strict=True) if abs(one - other) >= 0.005]
+    if wrong and wrong == others:
+        return f"the sign of {' and '.join(wrong)} is wrong"
+    if others == ["z"] and abs(seen[2] - mount[2] - HEIGHT) < 0.005:
+        return "z is the height above the ground; base_link itself is above the ground"
+    if len(others) > 1 and sorted(round(each, 2) for each in seen) == sorted(round(each, 2) for each in mount):
+        return "the numbers stand at the wrong axes: x points ahead, y to the left, z up"
+    if not any(round(each, 3) for each in seen):
+        return "the transform says that both frames are at the same place"
+    return ""
+
+
+def of_a_distance(measured, truth, mount):
+    """Explain distances to the wall that are wrong, given the true ones and the lidar's x in base_link."""
+    for words, wrong in (
+        ("the distance is measured from the lidar, and is asked for from base_link", truth - mount),
+        ("the place of the lidar on the cart is taken with the wrong sign", truth - 2 * mount),
+        ("the distance is measured from the front of the cart, and is asked for from base_link", truth - FRONT),
+        ("the distance is given in centimetres", truth * 100),
+        ("the distance is given in millimetres", truth * 1000),
+        ("the distance has the wrong sign", -truth),
+    ):
+        if _fits(measured, wrong) and not _fits(measured, truth):
+            return words
+    if _fits(measured, truth) or len(measured) < FEWEST:
+        return ""
+    if np.ptp(measured) < CLOSE < np.ptp(truth):
+        return f"every distance is {measured[-1]:.2f} m, however far the wall is"
+    error = measured - truth
+    if np.mean(error < -CLOSE) >= SHARE:
+        return (
+            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away: something "
+            "nearer than the wall, or not ahead, is taken for it"
+        )
+    if np.mean(error > CLOSE) >= SHARE:
+        return f"the distance is too large, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away"
+    return ""
+
+
+def of_a_driver(distance, speed, wanted):
+    """Explain speeds that are wrong, given the latest distance at each and the distance that was asked for."""
+    left = distance - wanted
+    if len(speed) < FEWEST:
+        return ""
+    as_given = np.clip(GAIN * left, -FASTEST, FASTEST)
+    if _fits(speed, as_given):
+        return ""
+    if not np.any(np.abs(speed) > STANDS):
+        return "every command is zero although distances arrive: a condition before the speed is set never holds"
+    if _fits(speed, -as_given):
+        return "the sign of linear.x is wrong: it drives away from the wall"
+    for other in (1.0, 0.0):
+        if abs(other - wanted) > CLOSE and _fits(speed, np.clip(GAIN * (distance - other), -FASTEST, FASTEST)):
+            return f"the cart is driven to {other:g} m, whatever stop_at says: the parameter does not reach the speed"
+    for shift, words in (
+        (FRONT, "from the front of the cart, and it is asked for from base_link"),
+        (-FRONT, "with 0.2 m too many, although the ranger's is already that of base_link"),
+    ):
+        if _fits(speed, np.clip(GAIN * (left - shift), -FASTEST, FASTEST)):
+            return f"the distance is taken {words}"
+    driven = speed[np.abs(speed) > STANDS]
+    if np.ptp(driven) < STANDS:
+        return f"the command is {driven[-1]:.2f} m/s or nothing: it does not fall as the wall comes near"
+    if abs(speed[-1]) > 2 * STANDS and left[-1] * speed[-1] > 0:
+        return (
+            f"it is still on its way: the last command is {speed[-1]:.2f} m/s with {abs(left[-1]):.2f} m left; it is "
+            "too slow for that distance"
+        )
+    return ""
+
+
+def _fits(values, others):
+    """Whether nearly all values are close to others; where a limit cuts both off, that is no evidence."""
+    if len(values) < FEWEST:
+        return False
+    return bool(np.mean(np.abs(values - others) < CLOSE) >= SHARE)
