@@ -9,13 +9,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import unreached
+from gz_course.grader.lint import action_servers, parameters, unreached
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
-CREATE = {"create_timer": 1, "create_subscription": 2}  # method -> position of its callback
+CREATE = {
+    "create_timer": 1,
+    "create_subscription": 2,
+    "registerCallback": 0,
+    "ActionServer": 3,
+}  # method -> position of its callback
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
@@ -28,7 +33,9 @@ def slips(content: bytes) -> Places:
 
 
 def _places(tree: ast.Module) -> Places:
-    found = [place for look in (*LOOKS, *unreached.LOOKS) for place in look(tree)]
+    found = [
+        place for look in (*LOOKS, *parameters.LOOKS, *action_servers.LOOKS, *unreached.LOOKS) for place in look(tree)
+    ]
     return [{"line": line, "said": said} for line, said in found[:MOST]]
 
 

@@ -135,7 +135,7 @@ def died(recording: Recording, facts: dict[str, Any]) -> str:
     if code > 0 and starts:
         # The last block that begins a traceback; a syntax error found at run time has no first line.
         begin = max((i for i in starts if lines[i].startswith("Traceback")), default=starts[0])
-        error, places = _read_traceback(lines[begin:])
+        error, places = read_traceback(lines[begin:])
         file = str(recording.properties("run").get("submission"))
         mine = [place for place in places if place[0] == file] or places
         place = f" ({mine[-1][0]}, line {mine[-1][1]})" if mine else ""
@@ -146,7 +146,7 @@ def died(recording: Recording, facts: dict[str, Any]) -> str:
     return f"Your node's process {how} {when}, before the exercise was over."
 
 
-def _read_traceback(lines: list[str]) -> tuple[str, list[tuple[str, str]]]:
+def read_traceback(lines: list[str]) -> tuple[str, list[tuple[str, str]]]:
     """Return the first line of the error a traceback ends in, and the (file name, line) of each frame."""
     places = []
     for line in lines:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.score import library_errors
 from gz_course.sim.did_you_mean import nearest_name
 
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
@@ -307,7 +308,7 @@ def meaning(error: str) -> str:
     """Return what to change, given the first line of an error as Python prints it; empty if unknown."""
     if said := _field(error):
         return said
-    for pattern, words in MEANINGS:
+    for pattern, words in (*library_errors.MEANINGS, *MEANINGS):
         if match := pattern.search(error):
             return words.format(*match.groups())
     return ""
