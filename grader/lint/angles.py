@@ -27,9 +27,7 @@ def calls(node: ast.AST) -> set[str]:
 def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
     """Yield every target of an assignment with its value; the parts of tuples one by one."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.AugAssign):
-            yield node.target, node.value
-        elif isinstance(node, ast.AnnAssign) and node.value is not None:
+        if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
             yield node.target, node.value
         for target in node.targets if isinstance(node, ast.Assign) else ():
             if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
@@ -113,9 +111,9 @@ def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     for target, value in assigned(tree):
         parts = {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
-        if ast.unparse(target).endswith("angular.z") and not calls(value) & TO_RADIANS:
-            if _in_degrees(value) or parts & in_degrees:
-                yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
+        wrong = (_in_degrees(value) or parts & in_degrees) and not calls(value) & TO_RADIANS
+        if wrong and ast.unparse(target).endswith("angular.z"):
+            yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
 
 
 def sine_first(tree: ast.AST) -> Iterator[Suspect]:

@@ -58,14 +58,8 @@ def _constants(tree: ast.AST) -> dict[str, float]:
     found: dict[str, list[object]] = {}
     for target, value in assigned(tree):
         number: object = value.value if isinstance(value, ast.Constant) else None
-        if (
-            isinstance(value, ast.BinOp)
-            and re.fullmatch(r"[\d.e/* -]+", text := ast.unparse(value))
-            and "**" not in text
-        ):
-            left, right = value.left, value.right
-            if isinstance(left, ast.Constant) and isinstance(right, ast.Constant) and isinstance(value.op, ast.Div):
-                number = left.value / right.value if right.value else None
+        if isinstance(value, ast.BinOp) and re.fullmatch(r"[\d.]+ / [\d.]+", ast.unparse(value)):
+            number = 1.0  # a quotient of two numbers, such as 1 / 25
         found.setdefault(ast.unparse(target), []).append(number)
     return {
         name: float(values[0])
@@ -157,7 +151,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:60]} makes degrees, and drive() compares with 2 pi",
+                    f"{ast.unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
                 )
         if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
             line = next(n.lineno for n in ast.walk(function) if isinstance(n, ast.Attribute) and n.attr == "nanosec")

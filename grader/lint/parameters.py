@@ -20,9 +20,8 @@ def compared_by_identity(tree: ast.Module) -> Iterator[Place]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Is | ast.IsNot):
             continue
-        if any(
-            _plain(side) or isinstance(side, ast.Name) and side.id in named for side in (node.left, *node.comparators)
-        ):
+        sides = (node.left, *node.comparators)
+        if any(_plain(side) or (isinstance(side, ast.Name) and side.id in named) for side in sides):
             right = "==" if isinstance(node.ops[0], ast.Is) else "!="
             yield (
                 node.lineno,
@@ -32,11 +31,7 @@ def compared_by_identity(tree: ast.Module) -> Iterator[Place]:
 
 
 def _plain(node: ast.AST) -> bool:
-    return (
-        isinstance(node, ast.Constant)
-        and isinstance(node.value, str | int | float)
-        and not isinstance(node.value, bool)
-    )
+    return isinstance(node, ast.Constant) and type(node.value) in (str, int, float)
 
 
 def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:

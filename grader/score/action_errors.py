@@ -1,7 +1,7 @@
 """Errors in the callback that executes a goal: rclpy catches them, logs them, and aborts the goal.
 
-Source: `ActionServer._execute_goal` of rclpy 7.1, which logs `Error raised in execute callback: ...` and then prints the
-traceback.
+Source: `ActionServer._execute_goal` of rclpy 7.1, which logs `Error raised in execute callback: ...` and then prints
+the traceback.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def execute_raised(recording: Recording, facts: dict[str, Any]) -> str:
         said = "publish_feedback() takes the feedback of the action, such as Patrol.Feedback(...), and nothing else"
     advice = f" What that means: {said}." if said else ""
     return shown(
-        f"Your execute callback raised {error or 'an error'} at {at:.2f} s of simulated time{where}; rclpy then ends the "
-        f"goal as ABORTED.{advice}",
+        f"Your execute callback raised {error or 'an error'} at {at:.2f} s of simulated time{where}; rclpy then ends "
+        f"the goal as ABORTED.{advice}",
         600,
     )

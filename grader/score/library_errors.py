@@ -77,7 +77,7 @@ MEANINGS = (
     ),
     # pictures
     (
-        re.compile(r"(?:AttributeError|TypeError): '(Image|CompressedImage)' object (?:has no attribute|is not subscr)"),
+        re.compile(r"(?:Attribute|Type)Error: '(Image|CompressedImage)' object (?:has no attribute|is not subscr)"),
         "a message of the type {0} is no array: CvBridge().imgmsg_to_cv2(message, 'rgb8') makes one",
     ),
     (
@@ -126,7 +126,7 @@ MEANINGS = (
     ),
     # actions
     (
-        re.compile(r"AttributeError: 'ServerGoalHandle' object has no attribute '(set_\w+|cancel(?:led)?|cancell?ing)'"),
+        re.compile(r"AttributeError: 'ServerGoalHandle' object has no attribute '(set_\w+|cancel(?:led|l?ing)?)'"),
         "{0} is no method of rclpy's goal handle (set_... are those of ROS 1): a goal ends with goal_handle.succeed(), "
         "canceled() or abort(), without arguments, and the result is returned",
     ),
