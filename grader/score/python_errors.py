@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from gz_course.grader.score.explanations.of_errors import libraries
 from gz_course.grader.score.explanations.of_errors.imports import import_fault, unknown_name
 from gz_course.grader.score.explanations.of_errors.node_interface import arguments, attributes, own_arguments
 from gz_course.grader.score.explanations.of_errors.operands import calls, lists, operands
@@ -336,7 +337,7 @@ def meaning(error: str, code: str = "") -> str:
             return said
     if said := _field(error):
         return said
-    for pattern, words in MEANINGS:
+    for pattern, words in (*libraries.MEANINGS, *MEANINGS):
         if match := pattern.search(error):
             return words.format(*match.groups())
     return impossible(error, code)

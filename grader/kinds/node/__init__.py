@@ -13,6 +13,7 @@ from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
@@ -72,6 +73,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "conditions": conditions(content),
         "origins": origins(content),
         "slips": slips(content, exercise.duration),
+        "suspects": suspects(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
         "whole_numbers": whole_numbers(content, float_fields(heard)),

@@ -62,6 +62,7 @@ def run_loop() -> type[RunLoop]:
 def diagnosis() -> Diagnosis:
     """Explain runs by the package first, then by the student's node."""
     from gz_course.grader.score import diagnosis as looks
+    from gz_course.grader.score.action_errors import execute_raised
 
     return looks.Diagnosis(
         outcome,
@@ -74,6 +75,8 @@ def diagnosis() -> Diagnosis:
             looks.slip,
             looks.died,
             looks.ended_early,
+            execute_raised,
+            looks.never_spun,
             looks.out_of_time,
             looks.unstable,
         ),
