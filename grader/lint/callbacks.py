@@ -81,7 +81,7 @@ def async_publish(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
             name = ast.unparse(node.value.func)
-            if name.rpartition(".")[2] in own:
+            if name.removeprefix("self.") in own:
                 yield (
                     node.lineno,
                     f"{name}() makes a coroutine that nobody awaits, so it does not run: def without async",

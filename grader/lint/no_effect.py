@@ -101,15 +101,14 @@ def always_true(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.If | ast.While | ast.IfExp | ast.Assert):
             continue
-        for each in ast.walk(node.test):
-            if isinstance(each, ast.BoolOp) and isinstance(each.op, ast.Or):
+        for each in _alternatives(node.test):
+            if isinstance(each.op, ast.Or):
                 constants = [value for value in each.values[1:] if isinstance(value, ast.Constant) and value.value]
                 if constants:
                     yield (
                         node.test.lineno,
                         f"{ast.unparse(each)[:60]} is always true, because {ast.unparse(constants[0])} is: each "
-                        f"side of "
-                        "or is a condition of its own",
+                        "side of or is a condition of its own",
                     )
         tested = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
         if ast.unparse(tested) in FUNCTIONS:
@@ -118,6 +117,16 @@ def always_true(tree: ast.AST) -> Iterator[Place]:
                 node.test.lineno,
                 f"{name} without brackets is the function, which is always true: {name}(...) calls it",
             )
+
+
+def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
+    """Yield the `and` and `or` of a condition, not those within its comparisons and calls."""
+    parts = [test.operand] if isinstance(test, ast.UnaryOp) else []
+    if isinstance(test, ast.BoolOp):
+        yield test
+        parts = test.values
+    for part in parts:
+        yield from _alternatives(part)
 
 
 def first_round(tree: ast.AST) -> Iterator[Place]:

@@ -21,6 +21,8 @@ def compared_by_identity(tree: ast.Module) -> Iterator[Place]:
         if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Is | ast.IsNot):
             continue
         sides = (node.left, *node.comparators)
+        if any(isinstance(side, ast.Constant) and side.value is None for side in sides):
+            continue
         if any(_plain(side) or (isinstance(side, ast.Name) and side.id in named) for side in sides):
             right = "==" if isinstance(node.ops[0], ast.Is) else "!="
             yield (

@@ -120,7 +120,8 @@ def decimal_commas(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         values: list[ast.expr] = []
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
-            values = node.value.elts if isinstance(node.targets[0], ast.Name | ast.Attribute) else []
+            bare = node.value.col_offset == node.value.elts[0].col_offset if node.value.elts else False  # no brackets
+            values = node.value.elts if bare and isinstance(node.targets[0], ast.Name | ast.Attribute) else []
         elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("create_timer") and len(node.args) >= 3:
             values = node.args[:2]
         if _two_whole(values):
