@@ -13,6 +13,7 @@ from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.time_reckoning import time_reckoning
+from gz_course.grader.lint.transforms import lookups
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
@@ -68,6 +69,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
+        "lookups": lookups(content),
         "slips": slips(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
