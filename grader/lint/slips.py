@@ -15,7 +15,9 @@ from gz_course.grader.lint import (
     names,
     no_effect,
     parameters,
+    sequences,
     time_units,
+    transforms,
     unreached,
     waiting,
 )
@@ -231,5 +233,5 @@ LOOKS = (
 )  # fmt: skip
 ROOMS = (
     LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
-    parameters.LOOKS, action_servers.LOOKS,
+    parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
 )  # fmt: skip

@@ -83,10 +83,11 @@ def diagnose(recording: Recording, looks: Iterable[Look]) -> str:
 
 
 def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -> str:
-    """Return one sentence about a float field that was assigned a whole number or a text; empty if there is none."""
+    """Return one sentence about a float field that was assigned what is no float; empty if there is none."""
     for place in recording.facts().get("whole_numbers", []):
+        kind = f" (it is an {place['type']} of NumPy)" if place.get("type") else ""
         return shown(
-            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float, but the "
+            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float{kind}, but the "
             "field holds one; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
         )
     return ""

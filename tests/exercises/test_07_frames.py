@@ -36,6 +36,7 @@ class Run:
         norm = np.linalg.norm(UPSIDE_DOWN)
         self.mount = (0.2, -0.1, 0.3), tuple(v / norm for v in UPSIDE_DOWN)
         self.frame = "odom"
+        self.lookups = []
 
     def answer(self, points, late=0.0, stamps=None, frame="odom"):
         at = self.at + late
@@ -61,6 +62,9 @@ class Run:
     def lines(self, entity):
         return [Line(0, self.frame, "INFO")] if self.has("topics/nearest_hit/count") else []
 
+    def facts(self):
+        return {"lookups": self.lookups}
+
     def places(self, turning=True):
         return CHECKS["places"](self, {"turning": turning})
 
@@ -83,17 +87,20 @@ def test_silence_earns_nothing():
     assert [each.passed for each in found] == [False] * 4
 
 
-def test_every_misconception_is_named():
+def test_every_misconception_is_named(monkeypatch):
     run = Run()
     scans = CHECKS["scans"](run)
     answered = SimpleNamespace(**vars(scans) | {"answered": scans.arrived + 0.02, "points": scans.hits})
     told = list(CHECKS["predictions"](run, answered, run.truth))
     assert len(told) > 30
+    # They are the same for each answer, but for a few that depend on it and are given as they are here.
+    monkeypatch.setitem(CHECKS["places"].__globals__, "predictions", lambda *given: told)
     for words, points in told:
         if words == "always the same":
-            points = np.ones_like(points)
-        if np.allclose(points[-20:], run.truth[-20:], atol=0.05, equal_nan=True):
-            continue  # the same as right in this run
+            continue  # depends on the answer
+        off = np.linalg.norm(points - run.truth, axis=1)[-20:]
+        if np.nanmean(off > 0.05) < 0.3:
+            continue  # nearly the same as right in this run
         known = np.where(np.isnan(points), 9.0, points)
         finding = run.answer(known, late=0.02).places()
         assert not finding.passed and finding.explanation.startswith("your points are "), (words, finding)

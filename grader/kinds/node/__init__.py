@@ -15,6 +15,7 @@ from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
+from gz_course.grader.lint.transforms import lookups
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
@@ -72,6 +73,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     places = {
         "conditions": conditions(content),
         "origins": origins(content),
+        "lookups": lookups(content),
         "slips": slips(content, exercise.duration),
         "suspects": suspects(content),
         "time_reckoning": time_reckoning(content),

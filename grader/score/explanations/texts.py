@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -75,3 +75,40 @@ def too_many(times: np.ndarray, ended: float) -> str:
     if times[-1] + gaps[0] > ended:
         return f"a message came every {gaps[0]:.2f} s until the end: a timer goes on firing"
     return f"the messages came {gaps[0]:.2f} s apart and ceased: two timers, or a count, send them"
+
+
+NUMBER = r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?|(?<![a-zA-Z])[-+]?(?:inf|nan)(?![a-ln-zA-Z])"
+WHOLE, FRACTION = "N", "N.NN"  # what stands for numbers when two lines are compared
+TOKEN = rf"{re.escape(FRACTION)}|{WHOLE}(?![a-zA-Z]{{2}})|[a-zA-Z]+|[^\w\s]|\s+|\w"
+
+
+def _form(line: str) -> list[str]:
+    """Return the words and marks of a line with all its numbers replaced."""
+    form = re.sub(NUMBER, lambda match: WHOLE if match[0].isdecimal() else FRACTION, line)
+    return re.findall(TOKEN, form)
+
+
+def line_difference(lines: Sequence[str], wanted: str) -> str:
+    """Return in what the first line of a log differs from an example of the wanted line, whatever numbers they hold.
+
+    Where one line is wanted and its parts stand in several, that is said.
+    """
+    if not lines:
+        return ""
+    forms, asked = [_form(line) for line in lines], _form(wanted)
+    words = {token for token in asked if token.isalpha() and len(token) > 2}
+    if not words <= set(forms[0]) and words <= {token for form in forms for token in form}:
+        return f"the line is spread over several: one call of info() logs all of it, as in {wanted!r}"
+    form = forms[0]
+    start = next((i for i, (a, b) in enumerate(zip(form, asked, strict=False)) if a != b), min(len(form), len(asked)))
+    if form == asked:
+        return ""
+    where = f"behind {''.join(form[max(0, start - 4) : start]).strip()!r}" if start else "at its beginning"
+    has = f"has {_shortly(form[start:])!r}" if start < len(form) else "ends"
+    if start == len(asked):
+        return f"{where} the line {has}, where it should end (N and N.NN stand for numbers)"
+    return f"{where} the line {has}, where {_shortly(asked[start:])!r} is asked for (N and N.NN stand for numbers)"
+
+
+def _shortly(tokens: Sequence[str]) -> str:
+    return "".join(tokens[:4]).rstrip()

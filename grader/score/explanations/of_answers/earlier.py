@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import Asked, predicts
+from gz_course.grader.score.explanations.answers import LAST, NEARLY_ALL, Asked, Named, predicts
 
 
 def _before(truth: np.ndarray, count: int) -> np.ndarray:
@@ -100,7 +102,41 @@ def change(asked: Asked) -> np.ndarray:
 
 @predicts("the answer before once more, not a new one", rank=2)
 def same_again(asked: Asked) -> np.ndarray:
-    return _before(asked.given, 1) if np.ptp(asked.given[asked.answered]) > 0 else asked.unknown
+    """Return the answers before, if they are repeated where the right value has changed."""
+    known = np.flatnonzero(asked.answered)
+    known = known[known > 0]
+    repeated = asked.given[known] == asked.given[known - 1]
+    changed = np.abs(asked.truth[known] - asked.truth[known - 1]) > asked.tolerance
+    if changed.sum() < 2 or not np.ptp(asked.given[asked.answered]) > 0 or repeated[changed].mean() < NEARLY_ALL:
+        return asked.unknown
+    return _before(asked.given, 1)
+
+
+PAST: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
+    ("the {} of the scan before", lambda values: _before(values, 1)),
+    ("the average, over all scans so far, of the {}", lambda values: np.cumsum(values) / np.arange(1, len(values) + 1)),
+    ("the smallest, over all scans so far, of the {}", np.minimum.accumulate),
+    ("the largest, over all scans so far, of the {}", np.maximum.accumulate),
+    ("the sum, over all scans so far, of the {}", np.cumsum),
+)
+OTHER: tuple[tuple[str, str, Callable[[np.ndarray], float]], ...] = (
+    ("minimum", "smallest valid range", np.min),
+    ("mean", "average of the valid ranges", np.mean),
+    ("valid_count", "number of valid rays", len),
+    ("", "largest valid range", np.max),
+)
+
+
+@predicts("another statistic, of other scans", rank=LAST)
+def other_statistic_of_the_past(asked: Asked) -> Named:
+    """Return what another statistic, taken over earlier scans, too, gives."""
+    candidates = [
+        Named(words.format(name), past(asked.of_valid(of)))
+        for statistic, name, of in OTHER
+        if statistic != asked.statistic
+        for words, past in PAST
+    ]
+    return max(candidates, key=lambda each: asked.met(each.answers))
 
 
 @predicts("the time [s] of the scan")
@@ -114,7 +150,7 @@ def first_scan(asked: Asked) -> np.ndarray:
     return np.full(len(asked.truth), asked.truth[0] if moved else np.nan)
 
 
-@predicts("always the same number, whatever the scan", rank=2)
+@predicts("always the same number, whatever the scan", rank=LAST)
 def constant(asked: Asked) -> np.ndarray:
     values = asked.given[asked.answered & np.isfinite(asked.given)]
     if not len(values):

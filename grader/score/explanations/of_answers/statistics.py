@@ -77,6 +77,11 @@ def index(asked: Asked) -> np.ndarray:
     return asked.nearest
 
 
+@predicts("the index of the smallest of all ranges, the invalid ones included, and not a range", only=(MINIMUM,))
+def index_of_all(asked: Asked) -> np.ndarray:
+    return asked.of_rows(np.argmin)
+
+
 @predicts("the index of the nearest among the valid rays, not its range", only=(MINIMUM,))
 def index_among_valid(asked: Asked) -> np.ndarray:
     return asked.of_valid(np.argmin)

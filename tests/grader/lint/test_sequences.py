@@ -1,0 +1,70 @@
+"""Lists, generators, comparisons and logs: what is found in a callback, and what is right and stays unnamed."""
+
+import pytest
+
+from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.whole_numbers import whole_numbers
+
+
+def callback(*lines):
+    body = "\n".join(f"        {line}" for line in lines)
+    return (
+        f"import logging\nlog = logging.getLogger('x')\nclass A(Node):\n    def on_scan(self, scan):\n{body}\n".encode()
+    )
+
+
+FAULTY = [
+    (["valid = (r for r in scan.ranges)", "n = len(list(valid))", "least = min(valid)"], "can be read only once"),
+    (
+        ["valid = filter(None, scan.ranges)", "a = sum(valid)", "for r in valid:", "    print(r)"],
+        "what filter() returns",
+    ),
+    (
+        ["rays = list(scan.ranges)", "for r in rays:", "    if r > 9:", "        rays.remove(r)"],
+        "skips the next element",
+    ),
+    (["a = [1]", "for i, r in enumerate(a):", "    del a[i]"], "skips the next element"),
+    (["if scan.ranges[0] != float('nan'):", "    pass"], "nothing is equal to nan"),
+    (["if scan.ranges[0] is not math.inf:", "    pass"], "asks for the same object"),
+    (["self.get_logger().info('%d rays', 3)"], "takes one text"),
+    (["log.info('text')"], "Python's own log"),
+]
+RIGHT = [
+    ["valid = [r for r in scan.ranges]", "n = len(valid)", "least = min(valid)"],
+    ["valid = (r for r in scan.ranges)", "least = min(valid)"],
+    ["valid = filter(None, scan.ranges)", "valid = list(valid)", "a = sum(valid) / len(valid)"],
+    ["rays = [1]", "for r in rays:", "    if r:", "        rays.remove(r)", "        break"],
+    ["for scan in list(self.waiting):", "    self.waiting.remove(scan)"],
+    ["if scan.ranges[0] == math.inf:", "    pass"],
+    ["self.get_logger().info('text', throttle_duration_sec=1.0)", "log.info('%d', 1)"],
+]
+
+
+@pytest.mark.parametrize(("lines", "words"), FAULTY)
+def test_a_slip_is_named(lines, words):
+    assert any(words in place["said"] for place in slips(callback(*lines)))
+
+
+@pytest.mark.parametrize("lines", RIGHT)
+def test_what_is_right_has_no_slip(lines):
+    lines = lines if any("get_logger" in line for line in lines) else [*lines, "self.get_logger().info('x')"]
+    assert slips(callback(*lines)) == []
+
+
+@pytest.mark.parametrize(
+    ("lines", "found"),
+    [
+        (["a = np.array(scan.ranges)", "self.pub.publish(Float32(data=a.min()))"], ["a.min()"]),
+        (["a = np.asarray(scan.ranges)", "b = a[a < 5]", "m = np.min(b)", "msg.data = m"], ["m"]),
+        (["msg.point.x = np.float32(2.0)"], ["np.float32(2.0)"]),
+        (["a = np.array(scan.ranges)", "msg.data = round(a.min(), 2)"], ["round(a.min(), 2)"]),
+        (["a = np.array(scan.ranges)", "msg.data = float(a.min())"], []),
+        (["a = np.array(scan.ranges, dtype=float)", "msg.data = a.min()"], []),
+        (["a = np.array(list(scan.ranges))", "msg.data = a.min()"], []),
+        (["a = np.array(scan.ranges)", "msg.data = a.min().item()"], []),
+        (["a = np.array(scan.ranges)", "self.x = a.min()", "i = a.argmin()"], []),
+        (["a = np.array(scan.ranges).astype(np.float64)", "msg.data = a.min()"], []),
+    ],
+)
+def test_numbers_of_float32_in_messages_are_found(lines, found):
+    assert [place["value"] for place in whole_numbers(callback(*lines), {"Float32": {"data"}})] == found
