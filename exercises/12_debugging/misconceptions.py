@@ -78,7 +78,8 @@ def of_a_driver(distance, speed, wanted):
         return ""
     if not np.any(np.abs(speed) > STANDS):
         return "every command is zero although distances arrive: a condition before the speed is set never holds"
-    if _drives(speed, left, -1):
+    away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
+    if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
         return "the sign of linear.x is wrong: it drives away from the wall"
     for other in (1.0, 0.0):
         if abs(other - wanted) > CLOSE and _drives(speed, distance - other):
@@ -100,12 +101,12 @@ def of_a_driver(distance, speed, wanted):
     return ""
 
 
-def _drives(speed, left, sign=1):
+def _drives(speed, left):
     """Whether the commands are those of the driver as it was given, with `left` [m] to drive.
 
     Where the fastest speed cuts them off, they say nothing about the way that is left.
     """
-    commands = sign * np.clip(GAIN * left, -FASTEST, FASTEST)
+    commands = np.clip(GAIN * left, -FASTEST, FASTEST)
     free = np.abs(commands) < FASTEST
     return _fits(speed, commands) and _fits(speed[free], commands[free])
 

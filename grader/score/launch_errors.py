@@ -68,6 +68,20 @@ MEANINGS = (
         "IfCondition or UnlessCondition, or compare in quotes, [\"'\", value, \"' == 'true'\"]",
     ),
     (
+        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type '\w+', expecting type 'INTEGER'"),
+        "a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', 1.0), "
+        "with a point, takes any number",
+    ),
+    (
+        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'"),
+        "{0} is handed over as a whole number, and the node wants one with a point, such as 1.0",
+    ),
+    (
+        re.compile(r"ParameterAlreadyDeclared.*'use_sim_time'"),
+        "every node declares use_sim_time itself; it is set where the node is started, parameters=[{{'use_sim_time': "
+        "True}}], and not declared again",
+    ),
+    (
         re.compile(r"Unknown substitution command \[(\w+)"),
         "in xacro, $(...) calls a command; the value of a property is written in braces, ${{{0}}}",
     ),

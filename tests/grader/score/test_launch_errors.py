@@ -34,6 +34,20 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("package 'ros_gz_bridges' not found, searching: ['/x']; did you mean 'ros_gz_bridge'?", ""),
         ("False is of type bool; text, a substitution or a list of them is expected here", "in quotes"),
         ("the Python expression 'not false' fails with NameError: name 'false' is not defined; text", "IfCondition"),
+        (
+            "InvalidParameterTypeException: Trying to set parameter 'stop_at' to '1.0' of type 'DOUBLE', expecting type "
+            "'INTEGER': stop_at",
+            "declare_parameter('stop_at', 1.0)",
+        ),
+        (
+            "InvalidParameterTypeException: Trying to set parameter 'stop_at' to '1' of type 'INTEGER', expecting type "
+            "'DOUBLE': stop_at",
+            "such as 1.0",
+        ),
+        (
+            "ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']",
+            "{'use_sim_time': True}",
+        ),
         ("NameError: name 'bridge_file' is not defined", ""),
         ("[Errno 2] No such file or directory: 'gz'", ""),
     ],
