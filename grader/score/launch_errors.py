@@ -69,8 +69,8 @@ MEANINGS = (
     ),
     (
         re.compile(r"Trying to set parameter '(\w+)' to '.*' of type '\w+', expecting type 'INTEGER'"),
-        "a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', 1.0), "
-        "with a point, takes any number",
+        "a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', "
+        "1.0), with a point, takes any number",
     ),
     (
         re.compile(r"Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'"),

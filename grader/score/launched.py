@@ -54,8 +54,9 @@ class Death:
 
     @property
     def why(self) -> str:
-        """What to change; empty if the error is unknown."""
-        return looked_elsewhere(self.said) or meaning(self.said) or launch_meaning(self.said)
+        """What to change, and where; empty if the error is unknown."""
+        why = looked_elsewhere(self.said) or meaning(self.said) or launch_meaning(self.said)
+        return f"{self.place}: {why}" if why and self.place else why
 
 
 def launch_facts(recording: Recording) -> dict[str, Any]:
