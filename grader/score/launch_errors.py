@@ -33,6 +33,18 @@ NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(
+            r"Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'"
+        ),
+        "{0} is handed over as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another "
+        "type of it",
+    ),
+    (
+        re.compile(r"(?:float|int)\(\) argument must be .*LaunchConfiguration"),
+        "a LaunchConfiguration has no value while the description is made, so Python cannot convert it: "
+        "ParameterValue(..., value_type=float) converts it when the launch runs",
+    ),
+    (
         re.compile(r"missing required argument '([^']+)'"),
         "an argument without default_value must be given in every call: DeclareLaunchArgument('{0}', "
         "default_value='...')",

@@ -35,14 +35,20 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("False is of type bool; text, a substitution or a list of them is expected here", "in quotes"),
         ("the Python expression 'not false' fails with NameError: name 'false' is not defined; text", "IfCondition"),
         (
-            "InvalidParameterTypeException: Trying to set parameter 'stop_at' to '1.0' of type 'DOUBLE', expecting type "
-            "'INTEGER': stop_at",
+            "Trying to set parameter 'stop_at' to '1.0' of type 'DOUBLE', expecting type 'INTEGER': stop_at",
             "declare_parameter('stop_at', 1.0)",
         ),
         (
-            "InvalidParameterTypeException: Trying to set parameter 'stop_at' to '1' of type 'INTEGER', expecting type "
-            "'DOUBLE': stop_at",
+            "Trying to set parameter 'stop_at' to '1' of type 'INTEGER', expecting type 'DOUBLE': stop_at",
             "such as 1.0",
+        ),
+        (
+            "Trying to set parameter 'stop_at' to '1' of type 'STRING', expecting type 'DOUBLE': stop_at",
+            "ParameterValue(..., value_type=float)",
+        ),
+        (
+            "TypeError: float() argument must be a string or a real number, not 'LaunchConfiguration'",
+            "ParameterValue(..., value_type=float)",
         ),
         (
             "ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']",
