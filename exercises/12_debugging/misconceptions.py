@@ -74,21 +74,21 @@ def of_a_driver(distance, speed, wanted):
     left = distance - wanted
     if len(speed) < FEWEST:
         return ""
-    as_given = np.clip(GAIN * left, -FASTEST, FASTEST)
-    if _fits(speed, as_given):
+    if _drives(speed, left):
         return ""
     if not np.any(np.abs(speed) > STANDS):
         return "every command is zero although distances arrive: a condition before the speed is set never holds"
-    if _fits(speed, -as_given):
+    away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
+    if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
         return "the sign of linear.x is wrong: it drives away from the wall"
     for other in (1.0, 0.0):
-        if abs(other - wanted) > CLOSE and _fits(speed, np.clip(GAIN * (distance - other), -FASTEST, FASTEST)):
+        if abs(other - wanted) > CLOSE and _drives(speed, distance - other):
             return f"the cart is driven to {other:g} m, whatever stop_at says: the parameter does not reach the speed"
     for shift, words in (
         (FRONT, "from the front of the cart, and it is asked for from base_link"),
         (-FRONT, "with 0.2 m too many, although the ranger's is already that of base_link"),
     ):
-        if _fits(speed, np.clip(GAIN * (left - shift), -FASTEST, FASTEST)):
+        if _drives(speed, left - shift):
             return f"the distance is taken {words}"
     driven = speed[np.abs(speed) > STANDS]
     if np.ptp(driven) < STANDS:
@@ -101,8 +101,18 @@ def of_a_driver(distance, speed, wanted):
     return ""
 
 
+def _drives(speed, left):
+    """Whether the commands are those of the driver as it was given, with `left` [m] to drive.
+
+    Where the fastest speed cuts them off, they say nothing about the way that is left.
+    """
+    commands = np.clip(GAIN * left, -FASTEST, FASTEST)
+    free = np.abs(commands) < FASTEST
+    return _fits(speed, commands) and _fits(speed[free], commands[free])
+
+
 def _fits(values, others):
-    """Whether nearly all values are close to others; where a limit cuts both off, that is no evidence."""
+    """Whether nearly all values are close to others."""
     if len(values) < FEWEST:
         return False
     return bool(np.mean(np.abs(values - others) < CLOSE) >= SHARE)

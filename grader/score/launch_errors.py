@@ -33,6 +33,18 @@ NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(
+            r"Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'"
+        ),
+        "{0} is handed over as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another "
+        "type of it",
+    ),
+    (
+        re.compile(r"(?:float|int)\(\) argument must be .*LaunchConfiguration"),
+        "a LaunchConfiguration has no value while the description is made, so Python cannot convert it: "
+        "ParameterValue(..., value_type=float) converts it when the launch runs",
+    ),
+    (
         re.compile(r"missing required argument '([^']+)'"),
         "an argument without default_value must be given in every call: DeclareLaunchArgument('{0}', "
         "default_value='...')",
@@ -66,6 +78,20 @@ MEANINGS = (
         re.compile(r"the Python expression '.*' fails with NameError: name '(true|false)' is not defined"),
         "the value of an argument is put into the expression as it was typed, and Python writes True and False: use "
         "IfCondition or UnlessCondition, or compare in quotes, [\"'\", value, \"' == 'true'\"]",
+    ),
+    (
+        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type '\w+', expecting type 'INTEGER'"),
+        "a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', "
+        "1.0), with a point, takes any number",
+    ),
+    (
+        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'"),
+        "{0} is handed over as a whole number, and the node wants one with a point, such as 1.0",
+    ),
+    (
+        re.compile(r"ParameterAlreadyDeclared.*'use_sim_time'"),
+        "every node declares use_sim_time itself; it is set where the node is started, parameters=[{{'use_sim_time': "
+        "True}}], and not declared again",
     ),
     (
         re.compile(r"Unknown substitution command \[(\w+)"),

@@ -54,9 +54,10 @@ class Death:
 
     @property
     def why(self) -> str:
-        """What to change; empty if the error is unknown."""
+        """What to change, and where; empty if the error is unknown."""
         known = self.crash.meaning if self.crash else meaning(self.said)
-        return looked_elsewhere(self.said) or known or launch_meaning(self.said)
+        why = looked_elsewhere(self.said) or known or launch_meaning(self.said)
+        return f"{self.crash.place}: {why}" if why and self.crash and self.crash.place else why
 
 
 def launch_facts(recording: Recording) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import ast
 from typing import Any
 
 from gz_course.grader.lint.launch_files import actions, commands, values
+from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -26,6 +27,7 @@ def launch_places(content: bytes) -> dict[str, Places]:
     def look(tree: ast.Module) -> Places:
         file = LaunchFile(tree)
         slips = [place for look in (*values.LOOKS, *actions.LOOKS, *commands.LOOKS) for place in look(file)]
+        slips += missing_commas(content)
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]
         found["fixed_worlds"] = [{"line": line, "world": world} for line, world in values.fixed_worlds(file)][:MOST]
         found["declared"] = [

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, last_name, text
 
 SIM_TIME = "use_sim_time"
+DETACH = frozenset({"setsid", "nohup", "disown", "tmux", "screen", "&"})
+STARTS_NODES = frozenset({"?", "Node", "LifecycleNode", "GroupAction", "IncludeLaunchDescription", "OpaqueFunction"})
 
 
 def _commands(file: LaunchFile) -> Iterator[list[ast.expr]]:
@@ -72,6 +74,35 @@ def _of_processes(file: LaunchFile) -> Iterator[tuple[ast.Call, list[ast.expr]]]
         given = file.value(argument(call, name))
         if isinstance(given, ast.List):
             yield call, given.elts
+
+
+def detached(file: LaunchFile) -> Iterator[Place]:
+    """Find a program that is started where Ctrl-C does not reach it."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
+        for node in (each for part in given if part is not None for each in ast.walk(part)):
+            for word in text(node).split():
+                if word in DETACH:
+                    yield (
+                        node.lineno,
+                        f"{word} takes the program away from the launch, so that Ctrl-C does not reach it: the actions "
+                        "of a launch run beside each other without that",
+                    )
+
+
+def parameters_for_what_follows(file: LaunchFile) -> Iterator[Place]:
+    """Find a SetParameter that stands behind all nodes which it could be meant for."""
+    for call in file.calls("LaunchDescription"):
+        given = file.value(argument(call, "initial_entities", 0))
+        actions = [file.value(each) for each in given.elts] if isinstance(given, ast.List) else []
+        kinds = [last_name(each.func) if isinstance(each, ast.Call) else "?" for each in actions]
+        for place, (kind, action) in enumerate(zip(kinds, actions, strict=True)):
+            behind = "Node" in kinds[:place] and not set(kinds[place:]) & STARTS_NODES
+            if kind in ("SetParameter", "SetUseSimTime", "SetRemap", "PushRosNamespace") and behind and action:
+                yield (
+                    action.lineno,
+                    f"{kind} reaches only the actions behind it in the list, and all nodes stand before it",
+                )
 
 
 def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
@@ -151,5 +182,5 @@ def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
 
 LOOKS = (
     glued_words, simulator_arguments, parameters_on_the_command_line, bridge_parameters, sim_time_for_others,
-    arguments_for_nobody,
+    arguments_for_nobody, detached, parameters_for_what_follows,
 )  # fmt: skip

@@ -96,7 +96,8 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
     typo = "it is nearly right, look at its spelling: " if near else ""
-    return f"nobody in Gazebo {does} {bridge.gz_topic}; {typo}gz topic -l lists the topics there are"
+    name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""
+    return f"nobody in Gazebo {does} {bridge.gz_topic}{name}; {typo}gz topic -l lists the topics there are"
 
 
 def _why(wanted: dict[str, str]) -> str:

@@ -89,6 +89,13 @@ def test_a_right_file_has_none():
         ("target_action=create", "target_action=runs", "only when gz sim has ended"),
         ("target_action=create", "target_action=bridge", "only when parameter_bridge has ended"),
         ("period=2.0", "period=30.0", "waits 30 s"),
+        ('"sim", "-s", world]', '"sim" "-s", world]', 'a comma is missing between "sim" and "-s"'),
+        ('["gz", "sim", "-s", world]', '["setsid", "gz", "sim", "-s", world]', "setsid takes the program away"),
+        ("create = Node(", 'create = Node(prefix="nohup", ', "nohup takes the program away"),
+        ("stands, runs,", "stands, SetParameter('use_sim_time', True), runs,", ""),
+        ("create, after,", "create, after, SetParameter('use_sim_time', True),", ""),
+        ("create, after,", "create, after, PushRosNamespace('a'),", ""),
+        ("function=later),", "function=later), *[PushRosNamespace('a')]", ""),
         ('"-s", world], condition=IfCondition', '"-s", world], condition=UnlessCondition', "no -r, so its world is"),
         ('"-r", world], condition=UnlessCondition', '"-r", world], condition=IfCondition', "UnlessCondition is the"),
         ('"--ros-args", "-p", "use', '"--ros-args -p use', "is one word here"),
@@ -138,6 +145,19 @@ def test_the_argument_of_the_included_simulator(arguments, words):
 def test_a_world_that_stands_in_a_command_is_found():
     found = launch_places(RIGHT.replace('"-s", world]', '"-s", "depot.sdf"]').encode())
     assert [place["world"] for place in found["fixed_worlds"]] == ["depot.sdf"]
+
+
+@pytest.mark.parametrize(
+    ("listed", "words"),
+    [
+        ("Node(executable='a'), SetParameter('use_sim_time', True)", "SetParameter reaches only the actions behind it"),
+        ("SetParameter('use_sim_time', True), Node(executable='a')", ""),
+        ("Node(executable='a'), SetParameter('use_sim_time', True), *others", ""),
+    ],
+)
+def test_what_follows_a_parameter_of_the_scope(listed, words):
+    found = slips(f"LaunchDescription([{listed}])\n")
+    assert words in "".join(found) and bool(words) == bool(found)
 
 
 def test_what_is_no_python_has_no_places():
