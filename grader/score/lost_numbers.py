@@ -41,6 +41,6 @@ def _words(topic: str, field: str, lost: np.ndarray) -> str:
         value = float(np.array([bits & 0xFFFFFFFF], dtype=np.uint32).view(np.float32)[0])
         what = f"a number of NumPy's type float32 ({value:.3g})"
     return (
-        f"{field} of what you publish on {topic} is given {what}, which is no float of Python; rclpy does not convert it "
-        "and sends 0: write float(...)."
+        f"{field} of what you publish on {topic} is given {what}, which is no float of Python; rclpy does not convert "
+        "it and sends 0: write float(...)."
     )
