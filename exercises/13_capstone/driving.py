@@ -18,7 +18,7 @@ def commands(recording):
 
 def stands(recording):
     """Return why a robot never drove, as far as its commands tell; empty if they do not."""
-    ahead, _ = commands(recording)
+    ahead, turning = commands(recording)
     if not len(ahead):
         return "no command came on /cmd_vel"
     if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
@@ -30,7 +30,7 @@ def stands(recording):
 
 def slow_or_lost(recording):
     """Return why a robot that drove did not see all rooms; empty if that is not known."""
-    ahead, turning = commands(recording)
+    ahead, _ = commands(recording)
     yaw = recording.signal("truth/robot/yaw").values
     way = recording.signal("truth/robot/distance").values.max(initial=0.0)
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
@@ -67,8 +67,8 @@ def touched(recording, radius, at, place):
     if abs(bearing) > AHEAD:
         side = "left" if bearing > 0 else "right"
         return (
-            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead, driving past: the way "
-            f"leaves less room than the robot's radius, {radius:g} m, as if it were a point; widen walls by 0.25 m"
+            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead, driving past: the "
+            f"way leaves less room than the robot's radius, {radius:g} m, as if it were a point; widen walls by 0.25 m"
         )
     return "it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time"
 
