@@ -1,6 +1,13 @@
-"""The checks of this exercise: what the node said and did, compared with the true places of robot and posts."""
+"""The checks of this exercise: what the node said and did, compared with the true places of robot and posts.
+
+`misconceptions.py` says more about what a wrong run looks like.
+"""
 
 import math
+import runpy
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -20,6 +27,11 @@ FARTHEST = 1e6  # [m] points farther away count as this far
 FULL_TURN, TURN_OFF = 2 * math.pi, 0.16  # [rad]
 STOP, STOP_OFF, FACING = 1.0, 0.12, 0.12  # [m], [m], [rad]
 STILL = 1.0  # [s] at the end
+
+
+def misconceptions():
+    """Return the functions of the other file, which uses those of this one."""
+    return SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 
 
 def posts(recording, colour=""):
@@ -81,7 +93,8 @@ def places_the_posts(recording, parameters):
     points, stamps, came = said_points(recording)
     if len(points) < FEWEST:
         number = f"{len(points)} points came on /red_post" if len(points) else "no point came on /red_post"
-        return Finding(False, expected, f"{number}, at least {FEWEST} are needed")
+        why = misconceptions().too_few_points(recording, points)
+        return Finding(False, expected, f"{number}, at least {FEWEST} are needed", explanation=why)
     red, names = posts(recording, "red")
     at = pose(recording, stamps)
     there = placed(at, points[:, 0], points[:, 1])
@@ -96,7 +109,10 @@ def places_the_posts(recording, parameters):
     if passed:
         return Finding(True, expected, measured)
     if right.mean() >= SHARE:
-        return Finding(False, expected, f"{measured}, but none at {len(missing)} of the {len(red)} red posts")
+        lost = red[[name in missing for name in names]]
+        why = misconceptions().missing_posts(recording, points, stamps, lost)
+        seen = f"{measured}, but none at {len(missing)} of the {len(red)} red posts"
+        return Finding(False, expected, seen, explanation=why)
     first = int(np.argmin(right))
     ahead, left = points[first, :2]
     nearest = red[np.argmin(np.linalg.norm(red - there[first], axis=1))]
@@ -106,6 +122,8 @@ def places_the_posts(recording, parameters):
         f"the nearest red post was {true[0] - RADIUS:.2f} m ahead and {true[1]:.2f} m left"
     )
     why = why_misplaced(recording, points, stamps, came, right)
+    if not why or "different times" in why:
+        why = misconceptions().misplaced(recording, points, stamps, right) or why
     return Finding(False, expected, measured, round(float(came[first] / 1e9), 3), explanation=why)
 
 
@@ -185,7 +203,8 @@ def why_beside(at, ahead, left, places, right):
     true = seen[np.arange(len(ahead)), which, 1]
     if known.sum() < FEWEST or near.any(axis=1).mean() < 0.9:
         return ""
-    if abs(float(np.median(left[known] / true[known])) - 1) <= 0.1:
+    share = left[known] / true[known]
+    if abs(float(np.median(share)) - 1) <= 0.1 and np.mean(np.abs(share - 1) <= 0.15) >= 0.8:
         return ""
     factors = {"": left[known] / true[known], " for each metre ahead": left[known] / true[known] * ahead[known]}
     for words, factor in factors.items():
@@ -222,15 +241,13 @@ def turns_once(recording, parameters):
         measured = f"no number came; at the end it had turned by {math.degrees(turned):.0f} degrees"
         why = ""
         if turned > 1.5 * FULL_TURN:
-            why = (
-                "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or "
-                "is compared with 360 although it is in radians, or each message counts for less time than has passed, "
-                "or it is one number of a quaternion"
-            )
+            why = misconceptions().on_and_on(recording)
+        elif abs(turned) < 0.1:
+            why = misconceptions().never_turned(recording)
         return Finding(False, expected, measured, explanation=why)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
     passed = abs(turned - FULL_TURN) <= TURN_OFF
-    why = "" if passed else why_turned(recording, when, turned)
+    why = "" if passed else why_turned(recording, when, turned) or misconceptions().too_fast(recording, turned)
     return Finding(passed, expected, measured, round(when / 1e9, 3), explanation=why)
 
 
@@ -273,7 +290,7 @@ def counts_the_posts(recording, parameters):
     first = counted(recording)
     expected = "the number of red posts in the hall"
     if first is None:
-        return Finding(False, expected, "no number came on /red_count")
+        return Finding(False, expected, "no number came on /red_count", gated=True)
     values = recording.signal("topics/red_count/data").values
     number = first[1]
     at = round(first[0] / 1e9, 3)
@@ -281,7 +298,7 @@ def counts_the_posts(recording, parameters):
         return Finding(True, expected, f"{number}, as there are", at)
     if len(values) > 1:
         measured = f"{len(values)} numbers came, {min(values):g} to {max(values):g}; one is asked for"
-        return Finding(False, expected, measured, at)
+        return Finding(False, expected, measured, at, explanation=misconceptions().several_numbers(recording))
     why = ""
     sent = recording.signal("topics/red_post/count")
     sightings = int((sent.times <= first[0]).sum())
@@ -300,7 +317,9 @@ def counts_the_posts(recording, parameters):
         why = "that is the number of places if the points are not turned by the heading at which they were seen"
     elif number == found_if(recording, first[0], -1.0):
         why = "that is the number of places if the points are turned the wrong way: check the signs of sin(heading)"
-    elif number == red + 1:
+    else:
+        why = misconceptions().other_count(recording, number, first[0])
+    if not why and number == red + 1:
         why = "one post was counted twice: perhaps at the start and at the end of the turn, by headings that differ"
     return Finding(False, expected, f"the number was {number}, but {red} red posts stand there", at, explanation=why)
 
@@ -320,7 +339,19 @@ def found_if(recording, when, factor):
 
 
 def stops_before_the_post(recording, parameters):
-    """Pass if the robot stands still, faces the nearest red post, and is 1 m before it."""
+    """Pass if the robot stands still, faces the nearest red post, and is 1 m before it.
+
+    Who has misplaced posts, or turned or counted wrongly, stops wrongly for that reason.
+    """
+    found = stopped(recording)
+    earlier = (places_the_posts, turns_once, counts_the_posts)
+    if found.passed or all(check(recording, parameters).passed for check in earlier):
+        return found
+    return replace(found, gated=True, explanation="")
+
+
+def stopped(recording):
+    """Return where and how the robot stands at the end."""
     expected = f"at the end it faces the nearest red post, {STOP:g} m before it (to {STOP_OFF:g} m), and stands still"
     end = np.array([recording.end_ns])
     here = tuple(float(each[0]) for each in pose(recording, end))
@@ -339,17 +370,21 @@ def stops_before_the_post(recording, parameters):
     drifted, turning = (float(np.diff(truth(recording, name, last))[0]) for name in ("distance", "yaw"))
     if drifted > 0.03 or abs(turning) > 0.05:
         measured = f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s"
-        return Finding(False, expected, measured)
+        return Finding(False, expected, measured, explanation=misconceptions().still_moving(recording))
     if not faced:
-        return Finding(False, expected, "it stood and faced no post")
+        why = misconceptions().faced_nothing(recording, here, start)
+        return Finding(False, expected, "it stood and faced no post", explanation=why)
     name = names[faced[0]]
     away = math.hypot(*seen[faced[0]]) - RADIUS
     measured = f"it stood {away:.2f} m before a {name.partition('_')[0]} post"
     if name == wanted:
-        return Finding(abs(away - STOP) <= STOP_OFF, expected, measured)
+        passed = abs(away - STOP) <= STOP_OFF
+        why = "" if passed else misconceptions().wrong_stop(recording, away)
+        return Finding(passed, expected, measured, explanation=why)
     why = ""
     if name.startswith("blue"):
         why = "it is a blue post: red and blue are swapped (rgb8 and bgr8)"
     elif name.startswith("red"):
         measured += ", which is not the one nearest to the start"
+        why = misconceptions().other_post(recording, name)
     return Finding(False, expected, measured, explanation=why)

@@ -166,6 +166,22 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
                 yield node.lineno, "gyroscope", f"{given[:60]} is a sum; the bias is the mean: divide by their number"
 
 
+def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading that is compared with 360 where nothing makes degrees."""
+    if calls(tree) & {"degrees", "rad2deg"} or not any(_functions(tree)):
+        return
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare):
+            continue
+        numbers = [each.value for each in ast.walk(node) if isinstance(each, ast.Constant)]
+        if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", ast.unparse(node)):
+            yield (
+                node.lineno,
+                "gyroscope",
+                f"{ast.unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
+            )
+
+
 def _undivided(tree: ast.AST, call: ast.Call) -> bool:
     """Say whether a sum stands in no division, and is not given a name that might be divided later."""
     for node in ast.walk(tree):
@@ -174,4 +190,4 @@ def _undivided(tree: ast.AST, call: ast.Call) -> bool:
     return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
 
 
-LOOKS = (wrong_fields, fixed_times, replaced, jumps)
+LOOKS = (wrong_fields, turns_of_360, fixed_times, replaced, jumps)

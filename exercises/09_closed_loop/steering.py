@@ -1,0 +1,120 @@
+"""What the commands of a wall follower depend on, found out from the run: `misconceptions.py` asks for it.
+
+For each thing that a node may measure in a scan, the turning rates are predicted from those at other times at which
+that thing was much the same (the nearest neighbours, as in k-NN regression). If the rates depend on it alone, the
+prediction is right: its share of the variance that is explained, R squared, is near 1.
+"""
+
+import numpy as np
+
+NEIGHBOURS = 4
+APART = 8  # scans between a scan and its neighbours: those beside it are alike whatever the node measures
+SCALE, ASKED = 0.15, 0.05  # [m] or [rad], [m]: about as far as two measurements may differ
+ALIKE = 2.5  # of those scales; what has no neighbour so near is left out
+FEWEST = 40  # scans
+NOTHING = 6.0  # [m] for a ray that hit nothing
+LIMIT = 1.5  # [rad/s]
+THICK = 0.04  # [m] ranges that are as near as the nearest one, with noise
+
+
+def measured(bearings, ranges):
+    """Return what a node may measure: by name, an array (scans, numbers); bearings grow from ahead to the side."""
+    ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
+
+    def nearest(chosen):
+        part, directions = ranges[:, chosen], bearings[chosen]
+        least = part.min(axis=1)
+        there = part < least[:, None] + THICK
+        return np.stack([least, (there * directions).sum(axis=1) / there.sum(axis=1)], axis=1)
+
+    def towards(direction, width=0.06):
+        off = np.abs(np.remainder(bearings - direction + np.pi, 2 * np.pi) - np.pi)
+        return ranges[:, off < width].min(axis=1)[:, None]
+
+    side, other = (bearings > -0.2) & (bearings < 2.5), (bearings < 0.2) & (bearings > -2.5)
+    return {
+        "right": nearest(side),
+        "other side": nearest(other),
+        "all around": nearest(np.abs(bearings) < 9),
+        "distance alone": nearest(side)[:, :1],
+        "beside": towards(np.pi / 2),
+        "beside, two": np.hstack([towards(np.radians(75)), towards(np.radians(105))]),
+        "beside, other": towards(-np.pi / 2),
+        "ahead": towards(0, 0.3),
+        "behind": towards(np.pi, 0.1),
+        "mean": ranges[:, (bearings > 0.2) & (bearings < 2.8)].mean(axis=1)[:, None],
+    }
+
+
+def explained(values, rates, asked):
+    """Return which share of the variance of turning rates [rad/s] some measured values (n, k) explain.
+
+    `asked` is the distance [m] that the parameter asked for at each time, which nodes depend on as well.
+    """
+    if len(rates) < FEWEST or rates.var() < 1e-4:
+        return 0.0
+    points = np.hstack([values / SCALE, asked[:, None] / ASKED])
+    away = np.sqrt(((points[:, None] - points[None]) ** 2).sum(axis=2))
+    number = np.arange(len(points))
+    away[np.abs(number[:, None] - number) <= APART] = np.inf
+    order = np.argsort(away, axis=1)[:, :NEIGHBOURS]
+    near = np.take_along_axis(away, order, axis=1)[:, -1] < ALIKE
+    if near.sum() < FEWEST or rates[near].var() < 1e-4:
+        return 0.0
+    off = rates[near] - rates[order[near]].mean(axis=1)
+    return float(1 - (off**2).mean() / rates[near].var())
+
+
+def follows(run, times, bearings, ranges):
+    """Return what the turning rates depend on: by name, the share of their variance that it explains."""
+    signal = run.recording.signal("topics/cmd_vel/angular/z")
+    index = np.searchsorted(signal.times / 1e9, times)
+    heard = (index < len(signal.times)) & (times > 0.5)
+    if heard.sum() < FEWEST:
+        return {}
+    rates = np.clip(run.sign * signal.values[index[heard]], -LIMIT, LIMIT)
+    asked = np.interp(times[heard], run.times, run.wanted)
+    found = measured(bearings, ranges[heard])
+    return {name: explained(values, rates, asked) for name, values in found.items()}
+
+
+def measures(run, times, bearings, ranges):
+    """Return words on what the node measures, if it is clearly something else than it should be; else nothing."""
+    share = follows(run, times, bearings, ranges)
+    if not share:
+        return ""
+    right, other = share["right"], "right" if run.side == "left" else "left"
+    if share["other side"] > 0.7 and share["other side"] > max(right + 0.2, share["all around"] - 0.03):
+        return (
+            f"angular.z follows the nearest point on the {other} of the robot, and side is {run.side!r}: the bearings "
+            "of a scan grow to the left (counter-clockwise), ray i looks to angle_min + i * angle_increment"
+        )
+    if share["all around"] > 0.75 and share["all around"] > right + 0.2:
+        return f"angular.z follows the nearest range of all directions: take the nearest one on the {run.side} side"
+    if share["behind"] > 0.9 and share["behind"] > right + 0.2:
+        return "angular.z follows the ray behind the robot: ray 0 looks to angle_min, which is -3.14, and not ahead"
+    if share["beside, other"] > 0.85 and share["beside, other"] > right + 0.2:
+        return (
+            f"angular.z follows the ray on the {other} of the robot, and side is {run.side!r}: ray i looks to "
+            "angle_min + i * angle_increment, and angle_min is -3.14, behind the robot"
+        )
+    if share["distance alone"] > 0.95 and share["distance alone"] > right + 0.02:
+        return (
+            "angular.z depends on the distance alone, and not on the heading towards the wall, so the robot comes to "
+            "the wanted distance at an angle, and overshoots: let the bearing of the nearest point, which should be "
+            "abeam, count too"
+        )
+    beside = max(share["beside"], share["beside, two"])
+    if beside > 0.95 and beside > right + 0.05:
+        return (
+            f"angular.z follows the rays straight to the {run.side} alone: a wall ahead, or a corner, is not seen "
+            "until it is beside the robot; take the nearest of all rays from ahead to behind on that side"
+        )
+    if share["ahead"] > 0.9 and share["ahead"] > right + 0.2:
+        return f"angular.z follows the range ahead alone: the wall to be followed is on the {run.side}"
+    if share["mean"] > 0.9 and share["mean"] > right + 0.1:
+        return (
+            f"angular.z follows the mean of the ranges on the {run.side}, which depends on all that is far away: the "
+            "distance is the nearest of them"
+        )
+    return ""
