@@ -168,7 +168,8 @@ def test_an_error_of_a_node_has_its_place_and_its_meaning(find, record):
     recording = record(facts={"launch": GOOD}, lines=[(0.0, line) for line in TRACEBACK])
     (death,) = deaths(recording)
     assert death.words == (
-        "; it said: TypeError: spin() missing 1 required positional argument: 'node' (ranger_node.py, line 22)"
+        "; it said: TypeError: spin() missing 1 required positional argument: 'node' "
+        '(ranger_node.py, line 22: super().__init("ranger"))'
     )
     assert death.why.startswith("ranger_node.py, line 22: rclpy.spin() needs the node")
     finding = find("node", lines=TRACEBACK, endpoints=[])
