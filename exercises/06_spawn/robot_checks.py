@@ -4,8 +4,11 @@ import numpy as np
 
 from gz_course.grader.printable import shown
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.explanations.of_robots.driving import leans
+from gz_course.grader.score.explanations.of_robots.topics import few_joints, no_joint_states, why_not_carried
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, deaths, launch_facts, ran
+from gz_course.grader.score.launched import argument, deaths, launch_facts, logged_error, ran
+from gz_course.grader.score.robots import robot_of
 
 TURNED = 1.0  # [rad] by which a wheel turns at least
 DRIVEN = 0.3  # [m] on which it does
@@ -31,6 +34,9 @@ def taken_as_it_is(recording, parameters):
     """Pass if the simulator had nothing to warn of when the robot was created."""
     expected = "no warning of gz sim when the robot is created"
     warnings = launch_facts(recording).get("model_warnings", [])
+    robot = robot_of(recording, "scout")
+    if not warnings and robot is not None and (tilted := leans(robot)):
+        return Finding(False, expected, "there was none, but a wheel leans", explanation=tilted)
     if not warnings:
         return Finding(True, expected, "there was none")
     more = f", and {len(warnings) - 1} more" if len(warnings) > 1 else ""
@@ -58,18 +64,24 @@ def joints_move(recording, parameters):
     """Pass if the states of two joints arrive in ROS all the time, and transforms are made of them."""
     expected = "/joint_states with two wheels or more, and /tf, at least 10 times a second"
     least = 10 * (recording.ended_s - 0.5)
+    robot = robot_of(recording, "scout")
     states = len(recording.signal("topics/joint_states/count"))
     if not states:
-        made = [bridge for bridge in bridges(recording) if bridge.ros_topic == "/joint_states"]
-        if not made:
-            return Finding(False, expected, "no bridge has the ROS topic /joint_states")
-        bridge = made[0]
-        if bridge.direction == "ROS_TO_GZ":
-            return Finding(False, expected, f"{bridge.place}: /joint_states goes the wrong way, from ROS to Gazebo")
-        return Finding(False, expected, f"nothing came on the Gazebo topic {bridge.gz_topic}")
+        if why := why_not_carried(
+            bridges(recording),
+            "/joint_states",
+            "sensor_msgs/msg/JointState",
+            to_gz=False,
+            said=logged_error(recording, "parameter_bridge"),
+        ):
+            return Finding(False, expected, "no message came on /joint_states", explanation=why)
+        bridge = next(bridge for bridge in bridges(recording) if bridge.ros_topic == "/joint_states")
+        why = no_joint_states(robot, bridge) if robot is not None else ""
+        return Finding(False, expected, f"nothing came on the Gazebo topic {bridge.gz_topic}", explanation=why)
     _, positions = recording.arrays("topics/joint_states/position")
     if not positions or min(map(len, positions)) < 2:
-        return Finding(False, expected, "/joint_states holds fewer than two joints")
+        why = few_joints(robot) if robot is not None else ""
+        return Finding(False, expected, "/joint_states holds fewer than two joints", explanation=why)
     if states < least:
         return Finding(False, expected, f"{states} messages came on /joint_states")
     driven = recording.signal("truth/scout/distance").values

@@ -2,18 +2,24 @@
 
 import itertools
 import math
+import re
+import runpy
+from pathlib import Path
 
 import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, complaint, deaths, ran
+from gz_course.grader.score.launched import argument, complaint, deaths, launch_facts, ran
 
 GAP = 1.2  # [m]
 ROW = 0.15  # [m] that a robot may start beside its place
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
 AT_REST = 0.3  # [m] that the gap may be off in the end
+STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
+NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 DRIVES, HEARS = "cmd_vel", "odom"
+FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
 def _names(recording):
@@ -33,19 +39,65 @@ def in_a_row(recording, parameters):
     if not there:
         said = complaint(recording, "create") or next((d.words for d in deaths(recording) if d.process == "create"), "")
         why = "" if said else "create of ros_gz_sim puts a model into a running world"
+        if not said and not any(STARTED.match(line.text) for line in recording.lines("log/student")):
+            why = (
+                "no create was ever started: an action runs only if it is in the LaunchDescription, or in the list "
+                "that a function of OpaqueFunction returns"
+            )
         return Finding(False, expected, f"no robot came into the world{': ' if said else ''}{said}", explanation=why)
     if there != sorted(names):
         why = ""
-        if len(there) < len(names) and there == sorted(names)[: len(there)]:
+        failed = complaint(recording, "create") or next(
+            (d.said for d in deaths(recording) if d.process == "create"), ""
+        )
+        numbers = [name.removeprefix("robot") for name in there]
+        if there == names[:-1] and not failed:
+            why = (
+                f"{names[-1]} is missing: range(1, n) ends before n, or the argument robots has no effect: "
+                f"{len(names)} robots were asked for"
+            )
+        elif len(there) < len(names) and there == names[: len(there)]:
             why = f"the argument robots has no effect, or a create failed: {len(names)} robots were asked for"
+            why = f"a create failed: {failed}" if failed else why
+        elif len(there) == len(names) and numbers == [str(number) for number in range(len(there))]:
+            why = "range(n) begins with 0, and the first robot is robot1: range(1, n + 1)"
+        elif len(there) == len(names):
+            others = ", ".join(name for name in there if name not in names)
+            why = (
+                f"create gives the name with -name: {others} should be {', '.join(n for n in names if n not in there)}"
+            )
         elif len(there) > len(names):
             why = f"the argument robots has no effect: {len(names)} robots were asked for"
         return Finding(False, expected, f"{called}, there were {', '.join(there)}", explanation=why)
     for number, name in enumerate(names):
         x, y = (recording.signal(f"truth/{name}/{axis}").values[0] for axis in ("x", "y"))
         if math.hypot(x + GAP * number, y) > ROW:
-            return Finding(False, expected, f"{name} began at x {x:.2f} m, y {y:.2f} m, not at x {-GAP * number:.2f} m")
+            measured = f"{name} began at x {x:.2f} m, y {y:.2f} m, not at x {-GAP * number:.2f} m"
+            return Finding(False, expected, measured, explanation=_misplaced(recording, names))
     return Finding(True, expected, f"{called}, so it was")
+
+
+def _misplaced(recording, names):
+    """Return how the robots stand instead of in their row; empty if in no way that is known."""
+    x, y = ([float(recording.signal(f"truth/{name}/{axis}").values[0]) for name in names] for axis in ("x", "y"))
+    if len(names) < 2:
+        return ""
+    places = list(zip(x, y, strict=True))
+    steps = [(two[0] - one[0], two[1] - one[1]) for one, two in itertools.pairwise(places)]
+    if max(abs(step[axis] - steps[0][axis]) for step in steps for axis in (0, 1)) > ROW:
+        return ""
+    ahead, aside = steps[0]
+    if math.hypot(ahead, aside) < ROW:
+        return "all begin at one place: -x of create is the same for all, or is missing"
+    if abs(aside) > ROW and abs(ahead) < ROW:
+        return "they stand side by side: the row is along x, and -x of create places a robot there"
+    if abs(ahead - GAP) < ROW:
+        return "each stands in front of the one before: behind is -x"
+    if abs(ahead + GAP) > ROW:
+        return f"they stand {abs(ahead):.2f} m apart, and {GAP} m is asked for"
+    if abs(x[0] + GAP) < ROW:
+        return "the row begins one place too far behind: robot1 is at x = 0, so robot N is at -1.2 * (N - 1)"
+    return ""
 
 
 def one_clock(recording, parameters):
@@ -82,6 +134,15 @@ def own_topics(recording, parameters):
             why = ""
             if other in ("/cmd_vel", "/odom"):
                 why = "without a namespace, the topics of all robots are one"
+            elif other == gz_topic:
+                spaces = {
+                    each["node"].rpartition("/")[0] for each in launch_facts(recording).get("bridges_started", [])
+                }
+                why = f"a remapping to {topic} is missing, or its two names are exchanged: (from, to)"
+                if f"/{topic.split('/')[1]}" in spaces:
+                    why = "a namespace does not change a name that begins with /: each needs a remapping (from, to)"
+            elif other:
+                why = f"its name in ROS should be {topic}: the second of the two names of its remapping"
             measured = f"no bridge has {topic}" + (f"; {gz_topic} is bridged as {other}" if other else "")
             return Finding(False, expected, measured, explanation=why)
         if len(here) > 1:
@@ -90,7 +151,9 @@ def own_topics(recording, parameters):
             measured = f"{topic} is bridged with {here[0].gz_topic}, not with {gz_topic}"
             return Finding(False, expected, measured, explanation="these are two different robots")
         if here[0].direction != direction:
-            return Finding(False, expected, f"{topic} has the direction {here[0].direction}, not {direction}")
+            why = "commands go from ROS to Gazebo, ]" if topic.endswith(DRIVES) else "odometry comes from Gazebo, ["
+            measured = f"{topic} has the direction {here[0].direction}, not {direction}"
+            return Finding(False, expected, measured, explanation=why)
     silent = [t for t in wanted if t.endswith(HEARS) and not next(b.to_ros for b in made if b.ros_topic == t)]
     if silent:
         paused = any(each["paused"] for each in ran(recording))
@@ -121,6 +184,10 @@ def listens_to_the_one_in_front(recording, parameters):
             why = ""
             if "/follower" in others:
                 why = "its node has no namespace: all followers have the same name"
+            if not others and (program := _no_program(recording)):
+                why = f"there is no program '{program}'"
+                if " " in program:
+                    why = "the whole command line is one word: cmd is a list of words, [sys.executable, file, ...]"
             measured = f"there was no node {node}" + (f"; there was {', '.join(others)}" if others else "")
             return Finding(False, expected, measured, explanation=why)
         heard = sorted({e["topic"] for e in ends if e["node"] == node and e["kind"] == "subscription"} - {"/clock"})
@@ -132,12 +199,42 @@ def listens_to_the_one_in_front(recording, parameters):
                 why = "a name that begins with / has no namespace"
             elif heard == sorted({f"/robot1/{HEARS}", f"/{name}/{HEARS}"}):
                 why = f"in front of {name} is {front}, not robot1"
+            elif below := [topic for topic in heard if topic.startswith(f"/{name}/") and topic.count("/") > 2]:
+                why = _below_its_namespace(below[0], name)
+            elif heard == [f"/{name}/{HEARS}"]:
+                why = f"it hears only itself: front/odom must become /{front}/{HEARS} by a remapping"
+            elif heard == [f"/{front}/{HEARS}"]:
+                why = "it hears only the robot in front, and not its own odometry"
+            elif behind := [topic for topic in heard if topic not in wanted and topic.endswith(f"/{HEARS}")]:
+                why = f"in front of {name} is {front}: {behind[0]} is that of another robot"
             return Finding(False, expected, f"{node} hears {', '.join(heard) or 'nothing'}", explanation=why)
         if told != [f"/{name}/{DRIVES}"]:
-            return Finding(False, expected, f"{node} publishes on {', '.join(told) or 'nothing'}")
+            why = ""
+            if told == [f"/{DRIVES}"]:
+                why = "a name that begins with / has no namespace"
+            elif told == [f"/{front}/{DRIVES}"]:
+                why = "it steers the robot in front instead of its own"
+            elif told and told[0].startswith(f"/{name}/"):
+                why = f"the topic of its robot is /{name}/{DRIVES}"
+            measured = f"{node} publishes on {', '.join(told) or 'nothing'}"
+            return Finding(False, expected, measured, explanation=why)
         if not any(e["node"] == node and e["topic"] == "/clock" for e in ends):
             return Finding(False, expected, f"{node} has no use_sim_time: its timer runs on the computer's time")
     return Finding(True, expected, f"{len(names) - 1} followers, so it was")
+
+
+def _no_program(recording):
+    """Return the program of an action that the launch did not find; empty if it found all."""
+    lines = (NO_PROGRAM.search(line.text) for line in recording.lines("log/student"))
+    return next((match[1] for match in lines if match), "")
+
+
+def _below_its_namespace(topic, name):
+    """Return why a subscription is below the follower's own namespace."""
+    relative = topic.removeprefix(f"/{name}/")
+    if relative == f"front/{HEARS}":
+        return f"front/{HEARS} was not remapped: it stays a name below /{name}"
+    return f"{relative} does not begin with /, so it is put into the namespace /{name}: write /{relative}"
 
 
 def keeps_together(recording, parameters):
@@ -154,9 +251,18 @@ def keeps_together(recording, parameters):
     if driven["robot1"] < 1.0:
         return Finding(False, expected, f"robot1 drove {driven['robot1']:.1f} m only: the commands did not reach it")
     for front, name in itertools.pairwise(names):
+        sent = FITS["heard"](recording, name, front)
         if driven[name] < 0.3:
             why = "its node publishes no speed above zero"
+            if sent and (said := FITS["speed"](sent)):
+                why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
+            elif not recording.has(f"topics/{name}/{DRIVES}/count"):
+                why = f"its node publishes nothing on /{name}/{DRIVES}"
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
+        reasons = [FITS[about](sent) for about in ("speed", "turning")] if sent else []
+        fits = "; and ".join(filter(None, reasons))
+        if reasons and FITS["PLACES"] in reasons[0]:
+            fits = reasons[0]  # the angle has the same fault
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]
         gap = np.hypot(np.interp(times, front_times, front_x) - x, np.interp(times, front_times, front_y) - y)
@@ -166,7 +272,8 @@ def keeps_together(recording, parameters):
             why = "it drives on where the distance is the gap, and should stand there"
             if gap[worst] > GAP:
                 why = "it falls behind, or turns another way than to the place of the robot in front"
-            return Finding(False, expected, measured, float(times[worst]), explanation=why)
+            return Finding(False, expected, measured, float(times[worst]), explanation=fits or why)
         if abs(gap[-1] - GAP) > AT_REST:
-            return Finding(False, expected, f"{called}, {name} ended {gap[-1]:.2f} m from {front}", float(times[-1]))
+            measured = f"{called}, {name} ended {gap[-1]:.2f} m from {front}"
+            return Finding(False, expected, measured, float(times[-1]), explanation=fits)
     return Finding(True, expected, f"{called}, all {len(names)} robots kept together")

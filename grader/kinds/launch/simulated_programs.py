@@ -17,6 +17,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from gz_course.grader.kinds.launch import claims
+from gz_course.grader.kinds.launch.robot_facts import MOST_ROBOTS, robot_facts
 from gz_course.grader.kinds.launch.submitted_world import SubmittedWorld
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.processes.participant import Participant
@@ -86,6 +87,7 @@ class SimulatedPrograms:
         self._submitted = SubmittedWorld()
         self._warnings: list[str] = []  # about a world that was handed in
         self._model_warnings: list[str] = []  # about models that were created
+        self._robots: dict[str, dict[str, Any]] = {}  # models that were created, and their parts
         self.world: World | None = None
         self.over = False  # a world that is asked for now comes too late
         self.building: Callable[[], None] = lambda: None  # called before the simulator gets what was handed over
@@ -234,14 +236,24 @@ class SimulatedPrograms:
                 return {"done": False, "error": str(error)}
         service = f"{self.world.topic}/{asked['verb']}"
         kind, before = str(asked["type"]), len(self.world.warnings)
+        there = set(self.world.model_names(static=True))
         with _errors() as errors:
             outcome = self._gz_node.call_raw(f"{service}/blocking", data, kind, Boolean.DESCRIPTOR.full_name, 5000)
         done = bool(outcome.executed and outcome.result and Boolean.FromString(outcome.response).data)
         self.calls.append(f"{asked['verb']}: {'done' if done else 'refused'}")
         warnings = self.world.warnings[before : before + MOST_WARNINGS]
-        self._model_warnings += warnings[: MOST_WARNINGS - len(self._model_warnings)]
+        self._warn_of_model(warnings, asked.get("warnings") if done else None)
+        for model in self.world.description.models:
+            if model.name not in there and not model.static and len(self._robots) < MOST_ROBOTS:
+                self._robots[model.name] = robot_facts(model)
         why = "" if done else next((error.removeprefix(f"{service}/blocking: ") for error in errors), "")
         return {"done": done, "warnings": warnings} | ({"error": why} if why else {})
+
+    def _warn_of_model(self, warnings: list[str], said: object) -> None:
+        """Keep warnings about a model, and those that the box `said` of what is not handed over: of its URDF."""
+        others = said[:MOST_WARNINGS] if isinstance(said, list) else []
+        texts = [*warnings, *(one_line(text) for text in others if isinstance(text, str))]
+        self._model_warnings += list(dict.fromkeys(texts))[: MOST_WARNINGS - len(self._model_warnings)]
 
     def facts(self) -> dict[str, Any]:
         """Return what the programs were and did, for the recording; the same for equal runs."""
@@ -278,6 +290,7 @@ class SimulatedPrograms:
             "calls": sorted(self.calls),
             "refused": sorted(self.refused),
             "model_warnings": self._model_warnings,
+            "robots": dict(sorted(self._robots.items())),
         }
 
 

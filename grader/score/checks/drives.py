@@ -20,10 +20,15 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording, Signal
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import launch_facts
+from gz_course.grader.score.explanations.of_robots import driving
+from gz_course.grader.score.explanations.of_robots.topics import commands_elsewhere, why_not_carried
+from gz_course.grader.score.graphs import bridges
+from gz_course.grader.score.launched import launch_facts, logged_error
+from gz_course.grader.score.robots import Robot, robot_of
 from gz_course.grader.score.steps import told
 
 AXES = {"linear_x": ("linear_x", "yaw", "m/s"), "angular_z": ("angular_z", "distance", "rad/s")}
+TYPE = "geometry_msgs/msg/Twist"
 STILL = 0.05  # of the commanded speed: less is no motion
 TURNED = 0.1  # [rad] that a wheel must turn to have moved
 
@@ -37,6 +42,7 @@ def drives(recording: Recording, parameters: Table) -> Finding:
     drift = parameters.number("drift", 0.1, above=0)
     joints = parameters.text("wheels") if parameters.has("wheels") else ""
     signal, side, unit = AXES[axis]
+    body = robot_of(recording, robot)
     speed, aside = recording.signal(f"truth/{robot}/{signal}"), recording.signal(f"truth/{robot}/{side}")
     commands = recording.signal(f"script/{topic}/{axis}")
     straight = axis == "linear_x"
@@ -53,18 +59,19 @@ def drives(recording: Recording, parameters: Table) -> Finding:
         if abs(ratio - 1) > within:
             why = _silent(recording, topic) if abs(ratio) < STILL else ""
             if not why and abs(ratio) < STILL:
-                why = _stuck(recording, joints, start, end, swerve if straight else 0.0)
-            why = why or (_linear if straight else _angular)(ratio)
+                why = _stuck(recording, body, topic, joints, start, end, swerve if straight else 0.0)
+            why = why or (_linear if straight else _angular)(ratio, body, wanted)
             return Finding(False, expected, measured, start, explanation=why)
         if swerve > drift:
             if straight:
                 measured += f", and turned by {told(swerve)} rad"
-                why = (
-                    "it drives a curve: its wheels do not have the same radius or grip, or something drags on one side"
-                )
+                why = "its wheels do not have the same radius or grip, or something drags on one side"
+                why = f"it drives a curve: {(driving.unequal_wheels(body) if body else '') or why}"
             else:
                 measured += f", and left the spot by {told(swerve)} m"
                 why = "it does not turn about the middle between its wheels"
+                if body and (where := driving.beside_the_middle(body)):
+                    why = where
             return Finding(False, expected, measured, start, explanation=why)
         last = Finding(True, expected, measured, start)
     return last
@@ -88,35 +95,51 @@ def _silent(recording: Recording, topic: str) -> str:
     taken = recording.signal(f"script/{topic}/taken").values
     if taken.any():
         return ""
-    return f"no bridge carried the commands on /{topic} (geometry_msgs/msg/Twist) from ROS to Gazebo"
+    why = why_not_carried(
+        bridges(recording), f"/{topic}", TYPE, to_gz=True, said=logged_error(recording, "parameter_bridge")
+    )
+    said = f"no bridge carried the commands on /{topic} ({TYPE}) from ROS to Gazebo"
+    return f"{said}: {why}" if why else said
 
 
-def _stuck(recording: Recording, joints: str, start: float, end: float, swerve: float) -> str:
+def _stuck(
+    recording: Recording, body: Robot | None, topic: str, joints: str, start: float, end: float, swerve: float
+) -> str:
     """Return why a robot that got its commands stays where it is."""
     if swerve > 0.5:
         return "commanded to drive straight, it turned on the spot: the axes of its wheels point in opposite directions"
     said = launch_facts(recording).get("model_warnings", [])
     if driver := next((text for text in said if "DiffDrive" in text or "left out" in text), ""):
         return f"gz sim says of the robot: {shown(driver, 300)}"
+    if body and (elsewhere := commands_elsewhere(body, bridges(recording), f"/{topic}")):
+        return f"its wheels did not turn: {elsewhere}"
+    why = driving.does_not_drive(body) if body else ""
+    if body and why == driving.no_plugin(body) != "":
+        return f"its wheels did not turn: {why}"
     if not joints:
         return "it did not move"
     times, positions = recording.arrays(f"topics/{joints}/position")
     rows = [row for time, row in zip(times / 1e9, positions, strict=True) if start <= time <= end]
     if len({len(row) for row in rows}) != 1:
-        return "it did not move, and no states of its joints came to tell whether its wheels turned"
+        return why or "it did not move, and no states of its joints came to tell whether its wheels turned"
     if np.ptp(np.array(rows), axis=0).max(initial=0.0) < TURNED:
+        if why:
+            return f"its wheels did not turn: {why}"
         return (
             "its wheels did not turn: no plugin drives them, or the plugin listens to another topic or drives joints "
             "of other names"
         )
-    return "its wheels turned, but did not roll along the ground: they turn about the wrong axis, or hang in the air"
+    more = why or "they turn about the wrong axis, or hang in the air"
+    return f"its wheels turned, but did not roll along the ground: {more}"
 
 
-def _linear(ratio: float) -> str:
+def _linear(ratio: float, body: Robot | None, wanted: float) -> str:
     if abs(ratio + 1) < 0.2:
         return "it drives backwards: the axes of both wheels point the wrong way (to the left is forward)"
     if ratio < 0:
         return "it drives backwards, and at another speed"
+    if body and (why := driving.other_speed(body, wanted, ratio)):
+        return f"it drives {told(ratio)} times as fast as commanded: {why}"
     return (
         f"it drives {told(ratio)} times as fast as commanded: the plugin's <wheel_radius> is {told(1 / ratio)} times "
         "the radius of its wheels, or a limit of the plugin, the weight or the grip holds it back"
@@ -126,11 +149,16 @@ def _linear(ratio: float) -> str:
     )
 
 
-def _angular(ratio: float) -> str:
+def _angular(ratio: float, body: Robot | None, wanted: float) -> str:
+    why = next(filter(None, driving.turns_slowly(body, wanted)), "") if body else ""
     if abs(ratio) < STILL:
-        return "it did not turn"
+        return f"it did not turn: {why}" if why else "it did not turn"
     if ratio < 0:
+        if body and (where := driving.sides_exchanged(body)):
+            return f"it turns the wrong way: the sides are exchanged: {where}"
         return "it turns the wrong way: <left_joint> and <right_joint> of the plugin are exchanged, or the wheels are"
+    if why and (ratio < 1 or "wheel_separation" in why):
+        return f"it turns {told(ratio)} times as fast as commanded: {why}"
     more = ", or something holds it back: a caster that grips the ground" if ratio < 1 else ""
     return (
         f"it turns {told(ratio)} times as fast as commanded: the plugin's <wheel_separation> is {told(ratio)} times "

@@ -15,6 +15,8 @@ import math
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.explanations.of_robots.description import at_work_on, description_meaning
+from gz_course.grader.score.explanations.of_robots.placing import misplaced
 from gz_course.grader.score.launched import argument, complaint, deaths, launch_facts, logged_error, looked_elsewhere
 from gz_course.grader.score.steps import told
 from gz_course.sim.did_you_mean import nearest_name
@@ -47,8 +49,8 @@ def spawned(recording: Recording, parameters: Table) -> Finding:
     if not wrong:
         return Finding(True, expected, measured)
     ignored = [axis for axis in wrong if abs(place[axis]) <= within]
-    why = ""
-    if ignored == wrong:
+    why = misplaced(wanted, place, wrong, names)
+    if ignored == wrong and "converted" not in why:
         words = ", ".join(names[axis] for axis in wrong[:-1]) + " and " * (len(wrong) > 1) + names[wrong[-1]]
         why = f"the {'argument' if len(wrong) == 1 else 'arguments'} {words} had no effect on the place of {robot}"
     return Finding(False, expected, measured, explanation=why)
@@ -65,10 +67,13 @@ def _why_not(recording: Recording, robot: str) -> tuple[str, str]:
     died = next((each for each in deaths(recording) if each.process == "create"), None)
     publisher = next((each for each in deaths(recording) if each.process == "robot_state_publisher"), None)
     if publisher is not None:
-        return f"robot_state_publisher ended with exit code {publisher.code}{publisher.words}", ""
+        measured = f"robot_state_publisher ended with exit code {publisher.code}{publisher.words}"
+        return measured, description_meaning(publisher.said)
     if died is not None or said:
         words = said or (died.said if died is not None else "")
         return f"create put no model into the world; it said: {words}", looked_elsewhere(words)
+    if "create: done" not in calls and (parts := at_work_on(recording)):
+        return "create was still at work on the robot when the run was over", parts
     if calls:
         return "Gazebo refused the model that create asked for", ""
     return "nothing asked Gazebo to create a model: create of ros_gz_sim does that", ""

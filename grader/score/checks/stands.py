@@ -16,10 +16,13 @@ import numpy as np
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.explanations.of_robots import standing
+from gz_course.grader.score.robots import Robot, robot_of
 from gz_course.grader.score.steps import told
 
 WAY = ("x", "y", "z")
 FALLS = "it falls over: nothing holds it up on that side"
+SINKS = "it falls, or sinks into the ground"
 TIPS = (
     "it stands, but tips over when it drives: its body has no mass (no <inertial>), its centre of mass is too high, or "
     "a wheel turns about another axis than its axle (a joint without <axis> turns about x)"
@@ -53,7 +56,7 @@ def stands(recording: Recording, parameters: Table) -> Finding:
         moved = np.sqrt(sum((values[name] - values[name][here]) ** 2 for name in WAY)) * resting
     faults = [
         (leaning > tilt, leaning, "it leaned by {} rad at {} s", FALLS),
-        (height < -drop, height, "its height had changed by {} m at {} s", "it falls, or sinks into the ground"),
+        (height < -drop, height, "its height had changed by {} m at {} s", SINKS),
         (height > drop, height, "its height had changed by {} m at {} s", PUSHED),
         (moved > slide, moved, "it had moved by {} m at {} s, before any command", "it does not rest where it stands"),
     ]
@@ -64,9 +67,27 @@ def stands(recording: Recording, parameters: Table) -> Finding:
             why = EXPLODES
         elif why == FALLS and times[first] > until:
             why = TIPS
+        if body := robot_of(recording, robot):
+            why = _of_its_parts(body, why, float(values["z"][0]))
         worst = amount[np.argmax(np.abs(amount) * wrong)]
         at = float(times[first])
         return Finding(False, expected, said.format(told(float(worst)), told(at)), round(at, 3), explanation=why)
     if recording.ended_s < until:
         return Finding(False, expected, f"the simulation ended at {recording.ended_s:.2f} s")
     return Finding(True, expected, f"it leaned by at most {told(float(leaning.max()))} rad")
+
+
+def _of_its_parts(body: Robot, why: str, height: float) -> str:
+    """Return `why` more exactly, if the parts of a robot that came at `height` [m] prove the reason."""
+    said = ""
+    if why == FALLS and (said := standing.falls_over(body)):
+        said = f"it falls over: {said}"
+    elif why == TIPS and (said := standing.tips_over(body)):
+        said = f"it stands, but tips over when it drives: {said}"
+    elif why == SINKS:
+        said = standing.without_collisions(body) or standing.above_the_ground(body, height)
+    elif why == PUSHED:
+        said = standing.in_the_ground(body, height)
+    if not said and (said := standing.huge_effects(body)):
+        said = f"{why.partition(':')[0]}: {said}"
+    return said or why

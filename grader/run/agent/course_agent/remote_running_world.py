@@ -49,18 +49,19 @@ class RemoteRunningWorld:
         from gz_course.sim.gz.sim.errors import LOG, SimError
         from gz_course.sim.ros_program.errors import Failure
 
-        asked = {"verb": verb, "type": request.DESCRIPTOR.full_name, "description": ""}
+        asked: dict[str, Any] = {"verb": verb, "type": request.DESCRIPTOR.full_name, "description": ""}
         sent = type(request).FromString(request.SerializeToString())
         if getattr(request, "sdf", "") or getattr(request, "sdf_filename", ""):
             try:
                 with python_3.at_work():  # also while it waits for xacro, which runs in a process of its own
-                    asked["description"] = _handed_over(request.sdf, request.sdf_filename)
+                    asked["description"], asked["warnings"] = _handed_over(request.sdf, request.sdf_filename)
             except SimError:
                 return False  # the caller reads it again and says why
             sent.ClearField("sdf" if request.sdf else "sdf_filename")
         answer = ask({"call": asked | {"data": base64.b64encode(sent.SerializeToString()).decode()}})
         for warning in answer.get("warnings", []):  # what the output of gz sim says of it
-            LOG.warning("%s", warning)
+            if warning not in asked.get("warnings", []):  # those were logged when the description was read
+                LOG.warning("%s", warning)
         if error := answer.get("error"):
             raise Failure(f"the entity was not created: {error}" if verb == "create" else error)
         return bool(answer.get("done"))
@@ -74,8 +75,11 @@ class RemoteRunningWorld:
         return ""
 
 
-def _handed_over(text: str, file: str) -> str:
-    """Hand over a model that is given as a text or a file; return its address."""
+def _handed_over(text: str, file: str) -> tuple[str, list[str]]:
+    """Hand over a model that is given as a text or a file; return its address and the warnings about it.
+
+    Some are about what the grader does not get: a URDF is handed over as SDF.
+    """
     from .handing_over import hand_over  # isort: skip - before anything imports MuJoCo
 
     from gz_course.sim.gz.sim.errors import Diagnostics
@@ -83,8 +87,9 @@ def _handed_over(text: str, file: str) -> str:
     from gz_course.sim.gz.sim.sdf.resources import read_text
 
     text, file = (text, "<create>") if text else (read_text(Path(file)), file)
-    read_model(text, file, Diagnostics())
-    return hand_over(text, file)
+    diagnostics = Diagnostics()
+    read_model(text, file, diagnostics)
+    return hand_over(text, file), diagnostics.warnings
 
 
 def install() -> None:

@@ -37,6 +37,8 @@ _NEEDED = {
 }
 """The elements that every shape should have, although SDF has defaults for them."""
 _NO_TEXT = frozenset((*_NEEDED, *["plane", "mesh", "geometry", "visual", "link", "inertial", "inertia", "axis"]))
+_CPU_LIDARS = ("lidar", "ray")
+"""Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/SdfEntityCreator.cc"""
 _AXIS_NEEDED = frozenset(("revolute", "continuous", "prismatic", "screw"))
 
 
@@ -132,6 +134,10 @@ def _sensor(element: Element) -> Found:
     if rate is not None and any(number < 0.0 for number in _numbers(rate.text)):
         text = f"<update_rate> of sensor '{element.name}' is {rate.text} Hz, so it measures at every step"
         yield rate.where, f"{text}; write how often a second, or 0 for every step"
+    kind = element.attributes.get("type", "")
+    if kind in _CPU_LIDARS:
+        text = f"sensor '{element.name}' is of type {kind}: it works here, but Gazebo says 'Sensor type LIDAR not "
+        yield element.where, f"{text}supported yet' and publishes nothing for it; write type='gpu_lidar'"
     for plugin in element.all("plugin"):
         if plugin.name.endswith("ThermalSensor"):  # it has parameters of the sensor
             continue

@@ -30,7 +30,20 @@ MODEL = "<sdf version='1.9'><model name='m'><static>1</static><link name='l'/></
 WORDS = (
     *("asset", "name", "size", "description"),
     *("hello", "ros", "waiting", "world", "run", "bridge", "worlds", "call", "stopped", "pid", "group", "command"),
-    *("given", "built_in", "path", "paused", "iterations", "node", "entries", "frame_id", "verb", "data", "type"),
+    *(
+        "given",
+        "built_in",
+        "path",
+        "paused",
+        "iterations",
+        "node",
+        "entries",
+        "frame_id",
+        "verb",
+        "data",
+        "type",
+        "warnings",
+    ),
 )
 
 
@@ -153,11 +166,11 @@ DRIVE = (
 def test_why_a_model_is_refused_or_not_taken_whole_is_said(served, tmp_path):
     load(served, tmp_path / "shown" / "mine.sdf")
 
-    def create(text):
+    def create(text, warnings=None):
         data = base64.b64encode(EntityFactory().SerializeToString()).decode()
         description = hand_over(served, text.encode())
         call = {"verb": "create", "type": "gz.msgs.EntityFactory", "data": data, "description": description}
-        return ask(served, call=call)
+        return ask(served, call=call if warnings is None else call | {"warnings": warnings})
 
     mass = "<link name='l'><inertial><mass>1</mass></inertial></link>"
     moving = MODEL.replace("<static>1</static><link name='l'/>", mass + DRIVE)
@@ -166,6 +179,12 @@ def test_why_a_model_is_refused_or_not_taken_whole_is_said(served, tmp_path):
     refused = create(moving)
     assert not refused["done"] and refused["error"].startswith("world 'mine' already has something called 'm'")
     assert served.facts()["model_warnings"] == taken["warnings"]
+    assert list(served.facts()["robots"]) == ["m"]
+    other = moving.replace("name='m'", "name='other'")
+    tilted, known = "<create>:3: rpy is in radians", taken["warnings"][0].replace("'m'", "'other'")
+    assert create(other, [tilted, 7, known])["done"]
+    assert served.facts()["model_warnings"][1:] == [known, tilted]
+    assert create(other.replace("other", "third"), "nonsense")["done"] and len(served.facts()["model_warnings"]) == 4
 
 
 def test_a_world_that_comes_when_the_run_is_over_is_refused(served, tmp_path):

@@ -1,0 +1,162 @@
+"""The checks of `11_many_robots`: what a follower with a misconception sends is named, and where robots stand."""
+
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Signal
+
+FOLDER = Path(__file__).parents[2] / "exercises/11_many_robots"
+FITS = runpy.run_path(str(FOLDER / "follower_fits.py"))
+CHECKS = runpy.run_path(str(FOLDER / "convoy_checks.py"))
+STEP, END = 0.05, 7.0
+GAP = 1.2
+
+
+class Run:
+    """A recording of robot2, which follows robot1 by `rule`: a function of what it hears that returns its command."""
+
+    def __init__(self, rule, delay=1):
+        front = self.path(lambda now: (0.5 * (1.0 <= now < 5.0), 0.4 * (3.0 <= now < 5.0)))
+        x = y = yaw = 0.0
+        rows, old = [], []
+        for index, now in enumerate(np.arange(0.0, END, STEP)):
+            old.append((x, y, yaw, *front[index]))
+            own_x, own_y, heading, front_x, front_y, front_yaw, v, w = old[max(0, index - delay)]
+            h = SimpleNamespace(x=own_x, y=own_y, heading=heading, front_x=front_x, front_y=front_y, v=v, w=w)
+            h.ahead, h.aside, h.front_heading = front_x + GAP - own_x, front_y - own_y, front_yaw
+            linear, angular = rule(h)
+            rows.append((now, linear, angular, x, y, yaw, *front[index]))
+            x, y, yaw = self.moved(x, y, yaw, linear, angular)
+        columns = np.array(rows).T
+        now, linear, angular, x, y, yaw, front_x, front_y, front_yaw, v, w = columns
+        self.signals = {
+            "topics/robot2/cmd_vel/linear/x": (now, linear),
+            "topics/robot2/cmd_vel/angular/z": (now, angular),
+        }
+        for robot, place in (("robot2", (x, y, yaw, linear, angular)), ("robot1", (front_x, front_y, front_yaw, v, w))):
+            base = f"topics/{robot}/odom"
+            self.signals |= {f"{base}/pose/pose/position/{axis}": (now, place[i]) for i, axis in enumerate("xy")}
+            self.signals |= {f"{base}/pose/pose/orientation/z": (now, np.sin(place[2] / 2))}
+            self.signals |= {f"{base}/pose/pose/orientation/w": (now, np.cos(place[2] / 2))}
+            self.signals |= {f"{base}/twist/twist/linear/x": (now, place[3])}
+            self.signals |= {f"{base}/twist/twist/angular/z": (now, place[4])}
+
+    def moved(self, x, y, yaw, linear, angular):
+        return x + linear * np.cos(yaw) * STEP, y + linear * np.sin(yaw) * STEP, yaw + angular * STEP
+
+    def path(self, commands):
+        x = y = yaw = 0.0
+        rows = []
+        for now in np.arange(0.0, END, STEP):
+            v, w = commands(now)
+            rows.append((x, y, yaw, v, w))
+            x, y, yaw = self.moved(x, y, yaw, v, w)
+        return rows
+
+    def signal(self, name):
+        times, values = self.signals.get(name, (np.empty(0), np.empty(0)))
+        return Signal(np.round(np.asarray(times) * 1e9).astype(np.int64), np.asarray(values, dtype=float))
+
+
+def wrapped(angle):
+    return np.arctan2(np.sin(angle), np.cos(angle))
+
+
+def bearing(h):
+    return np.arctan2(h.aside, h.ahead)
+
+
+def distance(h):
+    return np.hypot(h.ahead, h.aside)
+
+
+def speed_of(length, least=0.0, most=0.8, gain=1.5):
+    return float(np.clip(gain * length, least, most))
+
+
+def rule(speed=lambda h: speed_of(distance(h) - GAP), angle=lambda h: wrapped(bearing(h) - h.heading)):
+    return lambda h: (speed(h), float(np.clip(2.0 * angle(h), -1.5, 1.5)))
+
+
+def told(rule, about, delay=1):
+    heard = FITS["heard"](Run(rule, delay), "robot2", "robot1")
+    return FITS[about](heard)
+
+
+@pytest.mark.parametrize("delay", [0, 1, 2])
+def test_a_good_follower_has_no_misconception(delay):
+    assert told(rule(), "speed", delay) == "" and told(rule(), "turning", delay) == ""
+
+
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [
+        (lambda h: 0.5, "linear.x 0.50 m/s all the time"),
+        (lambda h: 0.0, "made of gap - distance"),
+        (lambda h: speed_of(distance(h) - 2 * GAP), "zero at a distance of 2.40 m"),
+        (lambda h: speed_of(distance(h)), "the gap of 1.2 m is not subtracted"),
+        (lambda h: speed_of(distance(h) - GAP, gain=0.3), "its gain is too small"),
+        (lambda h: speed_of(distance(h) - GAP, most=0.3), "never drives faster than 0.30 m/s"),
+        (lambda h: speed_of(distance(h) - GAP, least=0.2), "never drives slower than 0.20 m/s"),
+        (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y - h.y) - GAP), "begins where its own robot began"),
+        (lambda h: h.v, "its speed is that of the robot in front"),
+    ],
+)
+def test_a_wrong_speed_is_explained(speed, words):
+    assert words in told(rule(speed), "speed")
+
+
+@pytest.mark.parametrize(
+    ("angle", "words"),
+    [
+        (bearing, "does not subtract its own heading"),
+        (lambda h: bearing(h) + h.heading, "adds its own heading"),
+        (lambda h: np.arctan2(h.ahead, h.aside) - h.heading, "exchanges the arguments of atan2"),
+        (lambda h: wrapped(h.heading - bearing(h)), "the sign of angular.z is wrong"),
+        (lambda h: h.w / 2, "sends the turning rate of the robot in front"),
+    ],
+)
+def test_a_wrong_angle_is_explained(angle, words):
+    assert words in told(rule(angle=angle), "turning")
+
+
+def test_a_follower_that_sends_too_little_is_not_judged():
+    run = Run(rule())
+    run.signals = {name: (times[:5], values[:5]) for name, (times, values) in run.signals.items()}
+    assert FITS["heard"](run, "robot2", "robot1") == [] and FITS["heard"](run, "robot3", "robot2") == []
+
+
+@pytest.mark.parametrize(
+    ("places", "words"),
+    [
+        ([(0, 0), (1.2, 0), (2.4, 0)], "in front of the one before"),
+        ([(0, 0), (0, -1.2), (0, -2.4)], "side by side"),
+        ([(0, 0), (-1.0, 0), (-2.0, 0)], "1.00 m apart"),
+        ([(0, 0), (0, 0)], "at one place"),
+        ([(-1.2, 0), (-2.4, 0)], "one place too far behind"),
+        ([(0, 0), (-1.2, 0), (-9.0, 0)], ""),
+        ([(0, 0)], ""),
+    ],
+)
+def test_how_robots_stand_instead_of_in_a_row(places, words):
+    names = [f"robot{number}" for number in range(1, len(places) + 1)]
+    values = {
+        f"truth/{name}/{axis}": place["xy".index(axis)]
+        for name, place in zip(names, places, strict=True)
+        for axis in "xy"
+    }
+    recording = SimpleNamespace(signal=lambda name: Signal(np.zeros(1), np.array([float(values[name])])))
+    said = CHECKS["_misplaced"](recording, names)
+    assert words in said and bool(words) == bool(said)
+
+
+@pytest.mark.parametrize(
+    ("topic", "words"),
+    [("/robot2/front/odom", "was not remapped"), ("/robot2/robot1/odom", "write /robot1/odom")],
+)
+def test_a_name_below_the_namespace_of_a_follower(topic, words):
+    assert words in CHECKS["_below_its_namespace"](topic, "robot2")
