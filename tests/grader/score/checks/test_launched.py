@@ -171,7 +171,7 @@ def test_an_error_of_a_node_has_its_place_and_its_meaning(find, record):
         "; it said: TypeError: spin() missing 1 required positional argument: 'node' "
         '(ranger_node.py, line 22: super().__init("ranger"))'
     )
-    assert death.why.startswith("ranger_node.py, line 22: rclpy.spin() needs the node")
+    assert death.why.startswith('ranger_node.py, line 22: super().__init("ranger"): the call is rclpy.spin(node)')
     finding = find("node", lines=TRACEBACK, endpoints=[])
     assert finding.measured.startswith("the node /stopwatch never ran: python3 ended with exit code 1; it said: Type")
     assert finding.explanation == death.why
