@@ -101,8 +101,8 @@ def always_true(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.If | ast.While | ast.IfExp | ast.Assert):
             continue
-        for each in ast.walk(node.test):
-            if isinstance(each, ast.BoolOp) and isinstance(each.op, ast.Or):
+        for each in _conditions(node.test):
+            if isinstance(each.op, ast.Or):
                 constants = [value for value in each.values[1:] if isinstance(value, ast.Constant) and value.value]
                 if constants:
                     yield (
@@ -118,6 +118,16 @@ def always_true(tree: ast.AST) -> Iterator[Place]:
                 node.test.lineno,
                 f"{name} without brackets is the function, which is always true: {name}(...) calls it",
             )
+
+
+def _conditions(test: ast.expr) -> Iterator[ast.BoolOp]:
+    """Yield the test and its parts that are joined by and, or, not."""
+    if isinstance(test, ast.BoolOp):
+        yield test
+        for each in test.values:
+            yield from _conditions(each)
+    elif isinstance(test, ast.UnaryOp):
+        yield from _conditions(test.operand)
 
 
 def first_round(tree: ast.AST) -> Iterator[Place]:

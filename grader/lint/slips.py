@@ -9,7 +9,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import callbacks, names, no_effect, time_units, unreached, waiting
+from gz_course.grader.lint import (
+    angles,
+    callbacks,
+    names,
+    no_effect,
+    not_what_they_seem,
+    time_units,
+    unreached,
+    waiting,
+)
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -221,4 +230,5 @@ LOOKS = (
 )  # fmt: skip
 ROOMS = (
     LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
+    not_what_they_seem.LOOKS, angles.LOOKS,
 )  # fmt: skip

@@ -62,6 +62,7 @@ def run_loop() -> type[RunLoop]:
 def diagnosis() -> Diagnosis:
     """Explain runs by the package first, then by the student's node."""
     from gz_course.grader.score import diagnosis as looks
+    from gz_course.grader.score.crash import survived
 
     return looks.Diagnosis(
         outcome,
@@ -77,7 +78,7 @@ def diagnosis() -> Diagnosis:
             looks.out_of_time,
             looks.unstable,
         ),
-        (looks.slips, looks.whole_number_fault),
+        (looks.slips, survived, looks.whole_number_fault),
     )
 
 
