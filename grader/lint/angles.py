@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
 from collections.abc import Iterator
+
+from gz_course.grader.lint.constants import named_numbers, number
 
 Suspect = tuple[int, str, str]
 SINES = frozenset({"cos", "sin", "tan"})
@@ -84,6 +87,7 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
 
 def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
+    known = named_numbers(tree)
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
@@ -92,7 +96,9 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
         text = ast.unparse(node)[:60]
         if name in SINES and given and not calls(given[0]) & TO_RADIANS and not _to_radians(given[0]):
             parts = {ast.unparse(each) for each in ast.walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
-            if _in_degrees(given[0]) or parts & in_degrees:
+            value = number(given[0], known)
+            whole = isinstance(value, int) and abs(value) > 2 * math.pi
+            if _in_degrees(given[0]) or parts & in_degrees or whole:
                 yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
         if name in TO_RADIANS and given and OF_SCANS.search(ast.unparse(given[0])):
             yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"

@@ -30,7 +30,7 @@ def _attributes(node: ast.AST, context: type[ast.expr_context]) -> dict[str, int
 def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
     """Find `done = True` where `self.done` was meant: the local variable is never read, the attribute is."""
     for owner in _classes(tree):
-        read = _attributes(owner, ast.Load)
+        read, never_set = _attributes(owner, ast.Load), _only_none(owner)
         for method in _methods(owner):
             kept = {
                 name for node in ast.walk(method) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
@@ -39,13 +39,28 @@ def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
             loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)} | kept
             for node in ast.walk(method):
                 target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
-                if not isinstance(target, ast.Name) or target.id in loaded or target.id not in read:
+                if not isinstance(target, ast.Name) or target.id not in read:
+                    continue
+                lost = target.id in never_set - kept and f"self.{target.id}" not in ast.unparse(node.value)
+                if target.id in loaded and not lost:
                     continue
                 yield (
                     node.lineno,
-                    f"{target.id} = ... makes a variable of {method.name} alone, which nothing reads; line "
+                    f"{target.id} = ... makes a variable of {method.name} alone; line "
                     f"{read[target.id]} reads self.{target.id}, so write self.{target.id} = ...",
                 )
+
+
+def _only_none(owner: ast.ClassDef) -> set[str]:
+    """Return the attributes that are set to None in `__init__` and to nothing else anywhere."""
+    found: dict[str, bool] = {}
+    for node in ast.walk(owner):
+        for target in node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]:
+            for each in ast.walk(target) if isinstance(target, ast.expr) else ():
+                if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self":
+                    none = isinstance(node, ast.Assign) and ast.unparse(node.value) == "None"
+                    found[each.attr] = found.get(each.attr, True) and none
+    return {name for name, none in found.items() if none}
 
 
 def hidden_methods(tree: ast.AST) -> Iterator[Place]:

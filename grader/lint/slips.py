@@ -14,6 +14,7 @@ from gz_course.grader.lint import (
     callbacks,
     names,
     no_effect,
+    not_what_they_seem,
     parameters,
     sequences,
     time_units,
@@ -234,4 +235,5 @@ LOOKS = (
 ROOMS = (
     LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
     parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
+    not_what_they_seem.LOOKS,
 )  # fmt: skip

@@ -6,15 +6,20 @@ Source: the form of tracebacks of CPython 3.11.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding
 from gz_course.grader.score.python_errors import meaning
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 INSTALLED = ("/site-packages/", "/lib/python3", "/sim/", "/gz_course/", "<")  # parts of paths of installed code
 LONGEST_CODE = 70  # characters of the student's line that are quoted
+
+# Errors of a node that is told to end.
+AT_THE_END = ("KeyboardInterrupt", "SystemExit", "rclpy.executors.ExternalShutdown", "rclpy._rclpy_pybind11.RCLError")
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,18 @@ class Crash:
     def meaning(self) -> str:
         """What to change; empty if it is not known."""
         return meaning(self.error, self.code if self.own else "")
+
+
+def survived(recording: Recording, findings: Iterable[Finding] = ()) -> str:
+    """Return a sentence about the last error after which a node went on, as an action server does; empty if none."""
+    if recording.facts().get("exit_code") not in (None, 0):
+        return ""
+    lines = [line.text for line in recording.lines("log/student")]
+    crash = read_crash(lines, str(recording.properties("run").get("submission")))
+    if crash is None or crash.error.startswith(AT_THE_END):
+        return ""
+    advice = f" What that means: {crash.meaning}." if crash.meaning else ""
+    return shown(f"An error was caught, and your node went on: {crash.error} ({crash.place}).") + shown(advice)
 
 
 def read_crash(lines: Sequence[str], file: str = "") -> Crash | None:

@@ -241,7 +241,8 @@ MEANINGS = (
     ),
     (
         re.compile(r"TypeError: can only concatenate str|TypeError: must be str, not"),
-        "a number becomes a part of a text in an f-string: f'{{value:.2f}}'",
+        "one side is a text, such as '3': int(text) or float(text) makes a number of it; a number becomes a part of "
+        "a text in an f-string: f'{{value:.2f}}'",
     ),
     (
         re.compile(r"IndentationError: unexpected indent"),

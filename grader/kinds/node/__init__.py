@@ -97,6 +97,7 @@ def diagnosis() -> Diagnosis:
     """Explain runs by the student's node: possible faults in the order in which one would look for them."""
     from gz_course.grader.score import diagnosis as looks
     from gz_course.grader.score.clocks import clock_fault
+    from gz_course.grader.score.crash import survived
     from gz_course.grader.score.lost_numbers import lost_number
     from gz_course.grader.score.parameters_set import parameter_not_set
 
@@ -118,7 +119,7 @@ def diagnosis() -> Diagnosis:
             parameter_not_set,
             looks.unstable,
         ),
-        (looks.slips, looks.whole_number_fault, lost_number, clock_fault, looks.too_early),
+        (looks.slips, survived, looks.whole_number_fault, lost_number, clock_fault, looks.too_early),
     )
 
 

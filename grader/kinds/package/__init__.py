@@ -63,6 +63,7 @@ def diagnosis() -> Diagnosis:
     """Explain runs by the package first, then by the student's node."""
     from gz_course.grader.score import diagnosis as looks
     from gz_course.grader.score.action_errors import execute_raised
+    from gz_course.grader.score.crash import survived
     from gz_course.grader.score.lost_numbers import lost_number
 
     return looks.Diagnosis(
@@ -81,7 +82,7 @@ def diagnosis() -> Diagnosis:
             looks.out_of_time,
             looks.unstable,
         ),
-        (looks.slips, looks.whole_number_fault, lost_number),
+        (looks.slips, survived, looks.whole_number_fault, lost_number),
     )
 
 

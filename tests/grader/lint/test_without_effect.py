@@ -95,6 +95,22 @@ WRONG = {
     "this def tick replaces that in line": ("    def smallest(",
      "    def tick(self):\n        pass\n\n    def smallest("),
     "is a variable of the class": ("            self.done = True", "            Teleop.done = True"),
+    "start = ... makes a variable of tick alone": ("            self.start = now",
+     "            start = now\n            print(start)"),
+    # not_what_they_seem.py
+    "can be gone through once only, which line": (
+        "        best = 9.0", "        valid = (r for r in ranges if r > 0)\n        print(len(list(valid)))\n      "
+                              "  best = min(valid)"
+    ),
+    "command.linear is self.other.linear itself since line": (
+        "            command.linear.x = 0.5", "            command.linear = self.other.linear\n            "
+                                              "command.linear.x = 0.5"
+    ),
+    "is asks whether both are the same object": ("elapsed < SECONDS", "self.side is 'left'"),
+    "repeats one and the same row": ("        best = 9.0", "        grid = [[0] * 3] * 4\n        best = grid[0][0]"),
+    "has the whole seconds only": ("        best = 9.0", "        best = Time(seconds=self.stamp.sec)"),
+    "of Python's logging shows nothing here": ("import rclpy\n",
+     "import logging\nlogging.getLogger('a').info('b')\nimport rclpy\n"),
     # no_effect.py
     "compares and throws the result away": ("self.done = True", "self.done == True"),
     "is computed and thrown away": ("self.done = True", "self.done + 1"),
@@ -143,6 +159,10 @@ HARMLESS = [
     ("self.publisher.publish(command)", "self.publisher.publish(command)\n        command = Twist()\n        "
                                         "command.linear.x = 1.0\n"
      "        self.publisher.publish(command)"),
+    ("        best = 9.0", "        valid = [r for r in ranges]\n        best = max(valid) + min(valid)"),
+    ("        best = 9.0", "        valid = (r for r in ranges)\n        best = max(valid)"),
+    ("elapsed < SECONDS", "self.done is True or self.start is None"),
+    ("        best = 9.0", "        best = math.sin(math.radians(90)) + math.atan2(p.y, p.x) + math.cos(6)"),
     ("self.done = True", "self.timer.cancel()\n            self.timer = None"),
 ]  # fmt: skip
 

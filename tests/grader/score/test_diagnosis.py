@@ -3,6 +3,7 @@
 import pytest
 
 from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.score.crash import survived
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
 
 LOOKS = find_kind("node").diagnosis().looks
@@ -81,6 +82,16 @@ def test_an_error_whose_words_do_not_say_what_to_change_is_explained(told):
         f"with {error} (teleop_node.py, line 24: speed = 1 / 0). What that means: a method gets the object itself as "
         "its first argument: def say_hello(self)."
     )
+
+
+def test_an_error_after_which_the_node_went_on(record):
+    said = survived(record({}, facts=BASE, lines=[(0.5, line) for line in TRACE], submission="teleop_node.py"))
+    assert said.startswith(
+        "An error was caught, and your node went on: ZeroDivisionError: division by zero (teleop_node"
+    )
+    ended = [*TRACE[:-1], "KeyboardInterrupt"]
+    for facts, lines in ((BASE | {"exit_code": 1}, TRACE), (BASE, ended), (BASE, ["all is well"])):
+        assert survived(record({}, facts=facts, lines=[(0.5, line) for line in lines], submission="a.py")) == ""
 
 
 def test_the_last_of_several_tracebacks_counts(told):

@@ -139,7 +139,9 @@ def lists(error: str, code: str) -> str:
         return f"the index is {match[1]}, but there are {match[3]} elements, 0 to {int(match[3]) - 1}"
     if match := re.search(r"'array\.array' object has no attribute '(\w+)'", error):
         name = match[1]
-        call = f"{name}(values)" if name in ("min", "max", "sum", "sort") else f"np.array(values).{name}"
+        if name in ("length", "size", "shape", "len", "count_", "getLength"):
+            return "how many there are is len(values)"
+        call = f"{name}(values)" if name in ("min", "max", "sum") else f"np.array(values).{name}"
         return f"the list of a message is an array of Python, not of NumPy: {call}"
     if match := re.search(
         r"'list' object has no attribute '(min|max|sum|mean|shape|size|length|argmin|argmax)'", error

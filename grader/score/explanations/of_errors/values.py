@@ -25,8 +25,9 @@ MEANINGS = (
     ),
     (
         re.compile(r"The truth value of an array with more than one element is ambiguous"),
-        "if asks for one truth value, and a comparison of an array has one for each element: values[values > 1.0] "
-        "selects, .any() and .all() make one of them",
+        "if, and, or ask for one truth value, and a comparison of an array has one for each element: values[values "
+        "> 1.0] "
+        "selects, & and | (with brackets on both sides) combine two, .any() and .all() make one of them",
     ),
     (
         re.compile(r"operands could not be broadcast together with shapes (\(.*?\)) (\(.*?\))"),
@@ -117,6 +118,24 @@ MEANINGS = (
     (
         re.compile(r"history depth must be"),
         "the last argument is the depth of the queue: 0 or more, such as 10",
+    ),
+    (
+        re.compile(r"'NoneType' object has no attribute 'successful'"),
+        "the callback of add_on_set_parameters_callback must return SetParametersResult(successful=True)",
+    ),
+    (
+        re.compile(r"(?:Expected|got) <class 'NoneType'>|got <class 'NoneType'>"),
+        "nothing was returned or handed over where a message belongs: the callback of a service ends with return "
+        "response",
+    ),
+    (
+        re.compile(r"no running event loop"),
+        "asyncio has an event loop of its own, which rclpy does not run: a timer, or the sleep() of a Rate in another "
+        "thread, waits",
+    ),
+    (
+        re.compile(r"'(?:Server)?GoalHandle' object has no attribute 'set_(succeeded|aborted|canceled)'"),
+        "set_{0} is of ROS 1; a goal handle has succeed(), abort() and canceled(), and execute returns the result",
     ),
     (
         re.compile(r"timer period must be non-negative"),
