@@ -28,6 +28,16 @@ FAULTY = [
     (["if scan.ranges[0] is not math.inf:", "    pass"], "asks for the same object"),
     (["self.get_logger().info('%d rays', 3)"], "takes one text"),
     (["log.info('text')"], "Python's own log"),
+    (["self.get_logger().debug('text')"], "logs nothing at a logger's usual level"),
+    (["least = 0.0", "for r in scan.ranges:", "    if r < least:", "        least = r"], "least begins at 0"),
+    (["least = 0", "for r in scan.ranges:", "    if 0.1 < r and least > r:", "        least = r"], "it stays 0"),
+    (["least = 0.0", "for r in scan.ranges:", "    least = min(least, r)"], "begins at math.inf"),
+    (["most = 1000", "for r in scan.ranges:", "    if r > most:", "        most = r"], "no distance is larger"),
+    (["v = [i for i in range(len(scan.ranges)) if scan.range_min < i]"], "ranges[i]"),
+    (
+        ["for i, r in enumerate(scan.ranges):", "    if i < scan.range_max:", "        print(r)"],
+        "is the number of a ray",
+    ),
 ]
 RIGHT = [
     ["valid = [r for r in scan.ranges]", "n = len(valid)", "least = min(valid)"],
@@ -36,6 +46,10 @@ RIGHT = [
     ["rays = [1]", "for r in rays:", "    if r:", "        rays.remove(r)", "        break"],
     ["for scan in list(self.waiting):", "    self.waiting.remove(scan)"],
     ["if scan.ranges[0] == math.inf:", "    pass"],
+    ["least = 100.0", "for r in scan.ranges:", "    if r < least:", "        least = r"],
+    ["n = 0", "for r in scan.ranges:", "    if scan.range_min < r:", "        n += 1"],
+    ["total = 0.0", "for r in scan.ranges:", "    total = total + r"],
+    ["v = [r for i, r in enumerate(scan.ranges) if scan.range_min < r]"],
     ["self.get_logger().info('text', throttle_duration_sec=1.0)", "log.info('%d', 1)"],
 ]
 
