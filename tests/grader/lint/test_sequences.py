@@ -5,7 +5,6 @@ import pytest
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.whole_numbers import whole_numbers
 
-
 HEAD = """\
 import logging
 log = logging.getLogger('x')
