@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.score.explanations.of_errors.transforms import transform_fault
 from gz_course.sim.did_you_mean import nearest_name
 
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
@@ -305,7 +306,7 @@ def _field(error: str) -> str:
 
 def meaning(error: str) -> str:
     """Return what to change, given the first line of an error as Python prints it; empty if unknown."""
-    if said := _field(error):
+    if said := transform_fault(error) or _field(error):
         return said
     for pattern, words in MEANINGS:
         if match := pattern.search(error):
