@@ -189,8 +189,8 @@ def places(recording, parameters):
     first = which[np.flatnonzero(~met)[0]]
     why = (
         OTHER_HITS["several"](found.number)
-        or explanation(recording, found, truth, which, bad)
         or otherwise_assigned(recording, found, truth, which, missing)
+        or explanation(recording, found, truth, which, bad)
         or UNANSWERED["reason"](recording, infinite, int((~missing).sum()), len(which))
         or silence(found, truth)
     )

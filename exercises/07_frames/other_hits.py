@@ -38,7 +38,18 @@ def some_hit(found, wrong, seen):
     off = [np.nanmin(np.linalg.norm(every[i] - seen[i], axis=1)) for i in wrong if not np.isnan(seen[i, 0])]
     if not off or np.mean(np.array(off) <= CLOSE / 2) < SHARE:
         return ""
-    return "hits of their scans, rightly transformed, but not the nearest ones: another ray is chosen"
+    said = "hits of their scans, rightly transformed, but not the nearest ones"
+    scans = [(hits, angles) for hits, (_, angles) in zip(every, valid(found), strict=True)]
+    seen_at = np.degrees(np.arctan2(seen[wrong, 1], seen[wrong, 0]))
+    half = np.degrees(found.angles[0, 1]) / 2  # of a ray
+    low, high = np.nanmin(seen_at) - half, np.nanmax(seen_at) + half
+    nearest = chosen(scans, within(low, high))
+    if (
+        high - low < 0.8 * np.degrees(np.ptp(scans[0][1]))
+        and np.mean(np.linalg.norm(nearest - seen, axis=1)[wrong] <= CLOSE) >= SHARE
+    ):
+        return f"{said}: only rays from about {low:.0f} to {high:.0f} degrees were looked at, and all rays count"
+    return f"{said}: another ray is chosen"
 
 
 def chosen(scans, measure):

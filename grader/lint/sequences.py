@@ -151,4 +151,19 @@ def other_log(tree: ast.AST) -> Iterator[Place]:
         )
 
 
-LOOKS = (read_twice, changed_while_read, compared_with_nan, log_arguments, other_log)
+def silent_level(tree: ast.AST) -> Iterator[Place]:
+    """Find a file that logs at the level DEBUG only."""
+    calls = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and node.func.attr in LEVELS
+        and not ast.unparse(node.func).startswith("logging.")
+    ]
+    if "get_logger" in ast.unparse(tree) and calls and {_last(node.func) for node in calls} == {"debug"}:
+        first = min(calls, key=lambda node: node.lineno)
+        yield first.lineno, "debug() logs nothing at a logger's usual level, INFO: use info()"
+
+
+LOOKS = (read_twice, changed_while_read, compared_with_nan, log_arguments, other_log, silent_level)

@@ -16,6 +16,8 @@ from gz_course.grader.lint import (
     no_effect,
     not_what_they_seem,
     parameters,
+    scan_callbacks,
+    searches,
     sequences,
     time_units,
     transforms,
@@ -235,5 +237,5 @@ LOOKS = (
 ROOMS = (
     LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
     parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
-    not_what_they_seem.LOOKS,
+    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS,
 )  # fmt: skip

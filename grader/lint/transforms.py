@@ -10,6 +10,7 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
+from gz_course.grader.lint.callbacks import callbacks
 from gz_course.grader.lint.sequences import functions
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -18,18 +19,6 @@ ASKED = frozenset({"lookup_transform", "can_transform"})
 SPINS = frozenset({"spin", "spin_once", "spin_until_future_complete"})
 KEEPS = frozenset({"append", "appendleft", "put", "add", "insert", "extend"})
 MOST = 4  # lookups that are recorded
-
-
-def callbacks(tree: ast.AST) -> set[str]:
-    """Return the names of functions that are handed over to timers and subscriptions."""
-    found = set()
-    for call in _calls(tree):
-        place = {"create_timer": 1, "create_subscription": 2}.get(_last(call.func))
-        given = call.args[place] if place is not None and len(call.args) > place else None
-        given = next((each.value for each in call.keywords if each.arg == "callback" and place), given)
-        if given is not None:
-            found.add(_last(given))
-    return found
 
 
 def _calls(tree: ast.AST) -> Iterator[ast.Call]:

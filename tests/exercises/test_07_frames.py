@@ -139,3 +139,49 @@ def test_another_frame_is_named():
     run = Run()
     finding = CHECKS["frames"](run.answer(run.truth, frame="robot/scanner"), {})
     assert not finding.passed and "in which the point was measured" in finding.explanation
+
+
+@pytest.mark.parametrize(
+    ("lookup", "words"),
+    [
+        (
+            {"line": 30, "frames": ["odom", "laser"], "gives_up": False},
+            "line 30 asks for the frame 'laser', which does not",
+        ),
+        ({"line": 30, "frames": ["/odom"], "gives_up": False}, "do not begin with a slash"),
+        ({"line": 28, "frames": ["odom"], "gives_up": True}, "line 28 asks for the transform of the scan's time"),
+        ({"line": 28, "frames": ["odom"], "gives_up": False}, ""),
+    ],
+)
+def test_silence_is_explained_by_what_the_node_asks_for(lookup, words):
+    run = Run()
+    run.lookups = [lookup]
+    explanation = run.places().explanation
+    assert words in explanation and bool(words) == bool(explanation)
+
+
+def test_points_with_the_stamp_of_another_scan_are_explained_by_when_they_came():
+    run = Run()
+    odom, found = CHECKS["odom"], CHECKS["scans"](run)
+    first = odom(run, np.full(len(run.at), run.at[0])).of(found.mount.of(found.hits))
+    run.answer(first, late=0.02, stamps=np.full(len(run.at), run.at[0]))
+    assert "a transform that was looked up once" in run.places().explanation
+
+
+def test_several_points_for_each_scan_and_hits_of_another_ray_are_named():
+    run = Run()
+    found = CHECKS["scans"](run)
+    every = CHECKS["OTHER_HITS"]["hits_of"](found)
+    both = CHECKS["both_frames"](run, found)
+    at = np.repeat(run.at, 2)
+    points = np.repeat(both.of(np.array([hits[20] for hits in every])), 2, axis=0)
+    run.answer(both.of(np.array([hits[20] for hits in every])), late=0.02)
+    assert "rightly transformed, but not the nearest ones" in run.places().explanation
+    run.signals |= {f"topics/nearest_hit/point/{axis}": (at + 0.02, points[:, i]) for i, axis in enumerate("xyz")}
+    run.signals["topics/nearest_hit/header/stamp"] = (at + 0.02, at)
+    assert "about 2 points for each scan" in run.places().explanation
+    measure = CHECKS["OTHER_HITS"]["within"](-50.0, 50.0)
+    angles = FIRST + STEP * np.arange(RAYS)
+    near = CHECKS["OTHER_HITS"]["chosen"]([(hits, angles) for hits in every], measure)
+    said = run.answer(both.of(near), late=0.02).places().explanation
+    assert "only rays from about -48 to 49 degrees" in said

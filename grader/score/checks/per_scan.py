@@ -83,18 +83,20 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     tolerance, share = parameters.number("tolerance"), parameters.number("at_least", 0.95)
     topic = parameters.text("scan")
     asked = scans(recording, topic, what)
+    others: list[str] = []
+    printed, odd, example = "", "", ""
     if parameters.has("signal"):
         signal = parameters.text("signal")
-        given, printed, other, odd, others, example = _messages(recording, signal), "", "", "", [], ""
+        given = _messages(recording, signal)
         not_finite = len(recording.signal(f"{signal}/not_finite"))
         where = f"on {signal}"
     else:
         given, others, odd = _log_answers(recording, parameters.pattern("log"))
         example = parameters.text("line") if parameters.has("line") else ""
-        other = others[0] if others else ""
         printed = not_logged(recording, parameters.pattern("log"))
         not_finite = 0
         where = "in the node's log"
+    other = others[0] if others else ""
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
     right, unanswered, wrong = 0, 0, ""
     times = [time for time, _ in given]
@@ -181,7 +183,9 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
 
 def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], list[str], str]:
     """Return all answers in the log, the first lines without an answer, and the first answer that is no number."""
-    answers, others, odd = [], [], ""
+    answers: list[tuple[float, float]] = []
+    others: list[str] = []
+    odd = ""
     for at, text, logged in log_lines(recording):
         if not logged:
             continue

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -62,26 +62,25 @@ def smoothed_over_two(asked: Asked) -> np.ndarray:
     return (asked.truth + _before(asked.truth, 1)) / 2
 
 
-@predicts("a moving average over several scans, not the value of this scan", rank=2)
-def moving_average(asked: Asked) -> np.ndarray:
-    return max(
-        [_window(asked.truth, width, np.mean) for width in (*range(3, 11), 12, 15, 20, 25, 30, 50)], key=asked.met
-    )
+@predicts("a moving average", rank=2)
+def moving_average(asked: Asked) -> Named:
+    words = "a moving average over the last {} scans, not the value of this scan"
+    return _widest_fit(asked, words, np.mean, (*range(3, 11), 12, 15, 20, 25, 30, 50))
 
 
-@predicts("the smallest of the last few scans, not of this scan", rank=2)
-def smallest_of_a_few(asked: Asked) -> np.ndarray:
-    return max([_window(asked.truth, width, np.min) for width in range(2, 11)], key=asked.met)
+@predicts("the smallest of a few scans", rank=2)
+def smallest_of_a_few(asked: Asked) -> Named:
+    return _widest_fit(asked, "the smallest of the last {} scans, not of this scan", np.min, range(2, 11))
 
 
-@predicts("the largest of the last few scans, not the value of this scan", rank=2)
-def largest_of_a_few(asked: Asked) -> np.ndarray:
-    return max([_window(asked.truth, width, np.max) for width in range(2, 11)], key=asked.met)
+@predicts("the largest of a few scans", rank=2)
+def largest_of_a_few(asked: Asked) -> Named:
+    return _widest_fit(asked, "the largest of the last {} scans, not the value of this scan", np.max, range(2, 11))
 
 
-@predicts("a median over several scans, not the value of this scan", rank=2)
-def moving_median(asked: Asked) -> np.ndarray:
-    return max([_window(asked.truth, width, np.median) for width in (3, 5, 7, 9)], key=asked.met)
+@predicts("a moving median", rank=2)
+def moving_median(asked: Asked) -> Named:
+    return _widest_fit(asked, "a median over the last {} scans, not the value of this scan", np.median, (3, 5, 7, 9))
 
 
 @predicts("a low-pass filter of the values (a part of the last answer is kept), not the value of this scan", rank=2)
@@ -172,6 +171,12 @@ def counter(asked: Asked) -> np.ndarray:
     known = np.flatnonzero(asked.answered & np.isfinite(values))
     start = values[known[0]] - known[0] if len(known) else np.nan
     return np.arange(len(asked.truth)) + start
+
+
+def _widest_fit(asked: Asked, words: str, value: Callable[[np.ndarray], float], widths: Iterable[int]) -> Named:
+    """Return the values over as many of the last scans as fit the answers best."""
+    candidates = [Named(words.format(width), _window(asked.truth, width, value)) for width in widths]
+    return max(candidates, key=lambda each: asked.met(each.answers))
 
 
 def _window(truth: np.ndarray, width: int, value: object) -> np.ndarray:

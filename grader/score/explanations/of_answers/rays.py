@@ -136,12 +136,13 @@ def groups(asked: Asked) -> np.ndarray:
 
 
 @predicts("those of the rays ahead only, not of those all around", rank=2)
-def ahead(asked: Asked) -> np.ndarray:
+def ahead(asked: Asked) -> Named:
     """Return the answers of the sector, of the usual ones, that fits best."""
     if asked.scans is None or asked.scans.angle_max[0] - asked.scans.angle_min[0] < np.pi:
-        return asked.unknown
+        return Named("", asked.unknown)
     sector = (asked.scans.angle_max[0] - asked.scans.angle_min[0]) / 2
-    best, most = asked.unknown, -1
+    best, most = Named("", asked.unknown), -1
+    words = "those of the rays within {} degrees straight ahead only, not of those all around"
     for degrees in (5, 10, 15, 20, 30, 45, 60, 90):
         for last in (0, 1):  # a slice leaves its last ray out
 
@@ -153,7 +154,7 @@ def ahead(asked: Asked) -> np.ndarray:
 
             found = asked.over(in_sector)
             met = asked.met(found)
-            best, most = (found, met) if met > most else (best, most)
+            best, most = (Named(words.format(degrees), found), met) if met > most else (best, most)
     return best
 
 

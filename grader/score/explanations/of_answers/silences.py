@@ -85,6 +85,21 @@ def skips_scans(asked: Asked) -> str:
 
 
 @notices
+def only_records(asked: Asked) -> str:
+    """Find answers that come only if the right value is smaller, or larger, than ever before."""
+    if min(asked.answered.sum(), (~asked.answered).sum()) < 3:
+        return ""
+    for words, sign in (("smaller", 1.0), ("larger", -1.0)):
+        best = np.minimum.accumulate(sign * asked.truth)
+        record = np.append(True, sign * asked.truth[1:] < best[:-1])
+        since_the_last = np.append(True, sign * np.diff(asked.truth) < 0)
+        for mask, than in ((record, "every one before"), (since_the_last, "the one before")):
+            if np.mean(mask == asked.answered) >= 0.97:
+                return f"your node answers only when the value is {words} than {than}: each scan needs an answer"
+    return ""
+
+
+@notices
 def stopped_answering(asked: Asked) -> str:
     answered = np.flatnonzero(asked.answered)
     if len(answered) < 2 or answered[-1] - answered[0] + 1 != len(answered):
@@ -107,7 +122,7 @@ def every_nth(asked: Asked) -> str:
             f"your node answers at even intervals of about {period:.2g} s, as a timer does, and not once for each "
             "scan: publish and log in the callback of the scan"
         )
-    if len(steps) < 2 or steps[0] < 2 or np.mean(steps == np.median(steps)) < 0.8:
+    if len(steps) < 2 or np.median(steps) < 2 or np.mean(steps == np.median(steps)) < 0.8:
         return ""
     step = int(np.median(steps))
     which = {2: "every second scan", 3: "every third scan"}.get(step, f"one scan in {step}")

@@ -177,7 +177,7 @@ MINIMA = {
     "the smallest of all scans so far": smallest_so_far,
     "the average of all scans so far": running_average,
     "a low-pass filter": low_pass,
-    "a median over several scans": median_of_five,
+    "a median over the last 5 scans": median_of_five,
     "always that of the first scan": first_only,
     "a counter of the scans": counter,
     "always the same number": lambda scan, kept: 1.5,
@@ -197,7 +197,7 @@ MINIMA = {
     "the last ray": lambda scan, kept: scan.ranges[-1],
     "the middle ray": lambda scan, kept: scan.ranges[len(scan.ranges) // 2],
     "the first half of the rays": lambda scan, kept: min(valid(Scan(scan.ranges[:90]))),
-    "the rays ahead only": lambda scan, kept: min(valid(Scan(scan.ranges[82:98]))),
+    "those of the rays within 15 degrees straight ahead only": lambda scan, kept: min(valid(Scan(scan.ranges[82:98]))),
     "all rays, the invalid ones": lambda scan, kept: min(scan.ranges),
     "range_min was not asked about": lambda scan, kept: min(r for r in scan.ranges if r < scan.range_max),
     "with 0 in place": lambda scan, kept: min(r if 0.12 < r < 10 else 0.0 for r in scan.ranges),
@@ -343,6 +343,9 @@ FITTED = {
             valid(Scan(scan.ranges[150:] + scan.ranges[:30]))
         ),
         "the average, over all scans so far, of the smallest valid range": running_average,
+        "those of the numbers of the valid rays": lambda scan, kept: statistics.fmean(
+            i for i, r in enumerate(scan.ranges) if scan.range_min < r < scan.range_max
+        ),
         "begins with the first valid range": lambda scan, kept: (sum(valid(scan)) + valid(scan)[0]) / len(valid(scan)),
         "cut to whole numbers first": lambda scan, kept: statistics.fmean(map(int, valid(scan))),
     },

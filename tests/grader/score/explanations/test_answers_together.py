@@ -18,6 +18,14 @@ def only_if_changed(scan, kept):
     return value
 
 
+def only_nearer(scan, kept):
+    value = min(valid(scan))
+    if value >= kept.get("last", math.inf):
+        return None
+    kept["last"] = value
+    return value
+
+
 def by_a_timer(scan, kept):
     kept["n"] = kept.get("n", -1) + 1
     return min(valid(scan)) if int(kept["n"] * 0.4) != int((kept["n"] - 1) * 0.4) else None
@@ -27,6 +35,7 @@ def by_a_timer(scan, kept):
     ("program", "words"),
     [
         (only_if_changed, "only when the value has changed"),
+        (only_nearer, "only when the value is smaller than every one before"),
         (by_a_timer, "at even intervals of about 0.25 s"),
         (
             lambda scan, kept: min(valid(scan)) if min(valid(scan)) < 0.8 else None,
