@@ -90,7 +90,7 @@ def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def _endless(target: ast.expr) -> str:
+def _endless(target: ast.AST) -> str:
     """Return the name of the program that an action starts, if it is a simulator or a bridge; else nothing."""
     said = [text(each) for each in ast.walk(target)]
     if {"gz", "sim"} <= set(said) or any(each.startswith("gz sim") for each in said):

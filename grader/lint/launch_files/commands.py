@@ -82,7 +82,7 @@ def detached(file: LaunchFile) -> Iterator[Place]:
         given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
         for node in (each for part in given if part is not None for each in ast.walk(part)):
             for word in text(node).split():
-                if word in DETACH:
+                if word in DETACH and isinstance(node, ast.Constant):
                     yield (
                         node.lineno,
                         f"{word} takes the program away from the launch, so that Ctrl-C does not reach it: the actions "
