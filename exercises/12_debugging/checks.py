@@ -264,7 +264,7 @@ def _why_there(recording, times, away, wanted):
         return f"{said} (/wall, ranger_node.py)"
     if not len(command):
         return ""
-    before = np.searchsorted(measured.times, command.times, side="right") - 1
+    before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
     said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""
