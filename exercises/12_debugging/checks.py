@@ -175,6 +175,9 @@ def all_alive(recording, parameters):
         return Finding(False, expected, f"{', '.join(deaf)} did not end with Ctrl-C")
     if not facts.get("ended_itself", True):
         return Finding(False, expected, "the launch did not end with Ctrl-C: one of its programs ignores it")
+    if not recording.facts().get("sim_seconds") and not any(each.ros_topic == "/clock" for each in bridges(recording)):
+        measured = "there is neither simulated time nor /clock: that the programs wait for them shows nothing yet"
+        return Finding(False, expected, measured, gated=True)
     return Finding(True, expected, "so it is")
 
 
