@@ -167,9 +167,16 @@ def simulator_fault(said: str, recording: Recording) -> str:
     return ""
 
 
-def declared(recording: Recording, name: str) -> str:
-    """Return that the launch file declares no argument of this name, and which it does; empty if it declares it."""
-    names = [place["name"] for place in recording.facts().get("declared", [])]
+def declared(recording: Recording, name: str, default: str) -> str:
+    """Return that the launch file declares no argument of this name, or one with another default; else nothing."""
+    places = recording.facts().get("declared", [])
+    names = [place["name"] for place in places]
+    mine = next((place for place in places if place["name"] == name), {})
+    given, _ = argument(recording, name, "")
+    if mine.get("default", "") and not given and mine["default"].lower() != default.lower():
+        return (
+            f"{mine['file']}, line {mine['line']}: the default_value of {name} is '{mine['default']}', not '{default}'"
+        )
     if not names or name in names or "" in names:
         return ""
     others = ", ".join(each for each in names)
