@@ -143,7 +143,9 @@ def launch_slips(recording: Recording, findings: Iterable[Finding] = ()) -> str:
 
 def simulator_fault(said: str, recording: Recording) -> str:
     """Return what is wrong with the command line of a `gz sim`, given what it said; empty if that is unknown."""
-    if match := GLUED.search(said):
+    if (match := GLUED.search(said)) and match[2].startswith(" "):
+        return f"{match[1]}{match[2]} is one word, with spaces in it: each word of a command is an item of its own"
+    if match:
         return (
             f"a space is missing between {match[1]} and {match[2]}: what is joined to one text, as the parts of "
             "gz_args are, is joined without spaces"

@@ -195,6 +195,7 @@ def test_a_path_that_leads_elsewhere_is_explained(said, words):
     ("said", "words"),
     [
         ("argument -s: ignored explicit argument 'lidar_room.sdf'", "a space is missing between -s and lidar_room.sdf"),
+        ("argument -s: ignored explicit argument ' -r'", "-s -r is one word"),
         ("world file '<launch.LaunchConfiguration object at 0x7f>' was not found", "a Python object stands in"),
         ("world file 'world' was not found as a path", "LaunchConfiguration('world')"),
         ("world file '/submission/b.sdf' was not found as a path", "looked for in the folder /submission"),
