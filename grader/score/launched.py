@@ -173,7 +173,7 @@ def declared(recording: Recording, name: str, default: str) -> str:
     """Return that the launch file declares no argument of this name, or one with another default; else nothing."""
     places = recording.facts().get("declared", [])
     names = [place["name"] for place in places]
-    mine = next((place for place in places if place["name"] == name), {})
+    mine: dict[str, Any] = next((place for place in places if place["name"] == name), {})
     given, _ = argument(recording, name, "")
     if mine.get("default", "") and not given and mine["default"].lower() != default.lower():
         return (
