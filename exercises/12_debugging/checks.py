@@ -71,7 +71,14 @@ def scans_are_heard(recording, parameters):
     expected = "a subscription to /scan that asks for no more than the bridge offers"
     offers = [each for each in bridges(recording) if each.ros_topic == SCAN and each.publisher_qos is not None]
     if not offers or offers[0].gz_topic != "/lidar/scan" or offers[0].direction != "GZ_TO_ROS":
-        return Finding(False, expected, "the bridge does not carry /lidar/scan to /scan, one way")
+        measured = "the bridge does not carry /lidar/scan to /scan, one way"
+        for each in bridges(recording):
+            if "/lidar/scan" in (each.gz_topic, each.ros_topic) or SCAN in (each.gz_topic, each.ros_topic):
+                measured += (
+                    f": {each.place}: /{each.ros_topic.lstrip('/')} in ROS, {each.gz_topic} in Gazebo, {each.direction}"
+                )
+                break
+        return Finding(False, expected, measured)
     takes = _ends(recording, "subscription", LASER_SCAN, SCAN)
     if not takes:
         others = {each["topic"] for each in _ends(recording, "subscription", LASER_SCAN)}
@@ -145,9 +152,10 @@ def lidar_frame(recording, parameters):
         - {("count",)}
     )
     measured = "nobody publishes a static transform between base_link and lidar_link"
+    dead = any(each.process == "static_transform_publisher" for each in deaths(recording))
     if others:
         measured += f"; one between {others[0][0]} and {others[0][1]} is published: names of frames must be equal"
-    return Finding(False, expected, measured)
+    return Finding(False, expected, measured, gated=dead)
 
 
 def all_alive(recording, parameters):
@@ -167,6 +175,9 @@ def all_alive(recording, parameters):
         return Finding(False, expected, f"{', '.join(deaf)} did not end with Ctrl-C")
     if not facts.get("ended_itself", True):
         return Finding(False, expected, "the launch did not end with Ctrl-C: one of its programs ignores it")
+    if not recording.facts().get("sim_seconds") and not any(each.ros_topic == "/clock" for each in bridges(recording)):
+        measured = "there is neither simulated time nor /clock: that the programs wait for them shows nothing yet"
+        return Finding(False, expected, measured, gated=True)
     return Finding(True, expected, "so it is")
 
 
@@ -196,9 +207,10 @@ def parks(recording, parameters):
     normal = np.array([1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qz * qw)])
     places = np.stack([x.values, y.values], axis=1)
     away = np.abs((places - wall.positions[0][:2]) @ normal) - 0.05
-    why = _why_there(recording, x.times, away, wanted)
+    deaf = _why_deaf(recording)
+    why = deaf or _why_there(recording, x.times, away, wanted)
     if recording.signal("truth/robot/distance").values[-1] < 0.1:
-        return Finding(False, expected, "the cart stood still", explanation=_why_still(recording) or why)
+        return Finding(False, expected, "the cart stood still", explanation=deaf or _why_still(recording) or why)
     if away.min() < min(wanted - tolerance, 0.23):
         return Finding(False, expected, f"it came within {away.min():.2f} m of the wall", explanation=why)
     last = away[x.times >= x.times[-1] - 1_000_000_000]
@@ -207,6 +219,26 @@ def parks(recording, parameters):
     worst = last[np.argmax(np.abs(last - wanted))]
     right = bool(abs(worst - wanted) <= tolerance)
     return Finding(right, expected, f"it stood {worst:.2f} m from the wall", explanation="" if right else why)
+
+
+def _why_deaf(recording):
+    """Return which two ends of /wall or /cmd_vel do not connect: one asks for more than the other offers."""
+    takes = [(e["node"], e["topic"], e) for e in _ends(recording, "subscription", RANGE)]
+    for each in bridges(recording):
+        if each.ros_topic == COMMANDS and each.subscription_qos is not None:
+            takes.append(("the bridge", COMMANDS, vars(each.subscription_qos)))
+    for node, topic, wanted in takes:
+        for end in _ends(recording, "publisher", topic=topic):
+            for policy, strong, weak in (
+                ("reliability", "RELIABLE", "BEST_EFFORT"),
+                ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
+            ):
+                if wanted[policy] == strong and end[policy] == weak:
+                    return (
+                        f"{node} asks for the {policy} {strong} on {topic}, and {end['node']} offers {weak}: not one "
+                        "message arrives"
+                    )
+    return ""
 
 
 def _why_still(recording):
@@ -235,7 +267,7 @@ def _why_there(recording, times, away, wanted):
         return f"{said} (/wall, ranger_node.py)"
     if not len(command):
         return ""
-    before = np.searchsorted(measured.times, command.times, side="right") - 1
+    before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
     said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""

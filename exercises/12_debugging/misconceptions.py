@@ -81,15 +81,17 @@ def of_a_driver(distance, speed, wanted):
     away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
     if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
         return "the sign of linear.x is wrong: it drives away from the wall"
-    for other in (1.0, 0.0):
-        if abs(other - wanted) > CLOSE and _drives(speed, distance - other):
-            return f"the cart is driven to {other:g} m, whatever stop_at says: the parameter does not reach the speed"
-    for shift, words in (
-        (FRONT, "from the front of the cart, and it is asked for from base_link"),
-        (-FRONT, "with 0.2 m too many, although the ranger's is already that of base_link"),
-    ):
-        if _drives(speed, left - shift):
-            return f"the distance is taken {words}"
+    if _drives(speed, left - FRONT):
+        return "the distance is taken from the front of the cart, and it is asked for from base_link"
+    if (other := _aim(distance, speed)) is not None and abs(other - wanted) > CLOSE:
+        return f"the commands drive the cart to {other:.2f} m from the wall, not to the {wanted:g} m that stop_at says"
+    before = speed[: np.flatnonzero(np.abs(speed) > STANDS)[-1]]  # it comes to rest
+    still = np.mean(np.abs(before) <= STANDS) if len(before) >= FEWEST else 0.0
+    if still > 0.2:
+        return (
+            f"{100 * still:.0f} % of the commands before it comes to rest are zero: distances are dropped, or each "
+            "is used only once"
+        )
     driven = speed[np.abs(speed) > STANDS]
     if np.ptp(driven) < STANDS:
         return f"the command is {driven[-1]:.2f} m/s or nothing: it does not fall as the wall comes near"
@@ -109,6 +111,17 @@ def _drives(speed, left):
     commands = np.clip(GAIN * left, -FASTEST, FASTEST)
     free = np.abs(commands) < FASTEST
     return _fits(speed, commands) and _fits(speed[free], commands[free])
+
+
+def _aim(distance, speed):
+    """Return the distance at which the commands come to zero, if they fall in proportion to it; else None."""
+    free = (np.abs(speed) < np.abs(speed).max() - STANDS) & (np.abs(speed) > STANDS)
+    if free.sum() < FEWEST or np.ptp(distance[free]) < 4 * CLOSE:
+        return None
+    gain, offset = np.polyfit(distance[free], speed[free], 1)
+    if gain <= 0 or not _fits(speed[free], gain * distance[free] + offset):
+        return None
+    return float(-offset / gain)
 
 
 def _fits(values, others):

@@ -142,7 +142,9 @@ def launch_slips(recording: Recording, findings: Iterable[Finding] = ()) -> str:
 
 def simulator_fault(said: str, recording: Recording) -> str:
     """Return what is wrong with the command line of a `gz sim`, given what it said; empty if that is unknown."""
-    if match := GLUED.search(said):
+    if (match := GLUED.search(said)) and match[2].startswith(" "):
+        return f"{match[1]}{match[2]} is one word, with spaces in it: each word of a command is an item of its own"
+    if match:
         return (
             f"a space is missing between {match[1]} and {match[2]}: what is joined to one text, as the parts of "
             "gz_args are, is joined without spaces"
@@ -166,9 +168,16 @@ def simulator_fault(said: str, recording: Recording) -> str:
     return ""
 
 
-def declared(recording: Recording, name: str) -> str:
-    """Return that the launch file declares no argument of this name, and which it does; empty if it declares it."""
-    names = [place["name"] for place in recording.facts().get("declared", [])]
+def declared(recording: Recording, name: str, default: str) -> str:
+    """Return that the launch file declares no argument of this name, or one with another default; else nothing."""
+    places = recording.facts().get("declared", [])
+    names = [place["name"] for place in places]
+    mine: dict[str, Any] = next((place for place in places if place["name"] == name), {})
+    given, _ = argument(recording, name, "")
+    if mine.get("default", "") and not given and mine["default"].lower() != default.lower():
+        return (
+            f"{mine['file']}, line {mine['line']}: the default_value of {name} is '{mine['default']}', not '{default}'"
+        )
     if not names or name in names or "" in names:
         return ""
     others = ", ".join(each for each in names)

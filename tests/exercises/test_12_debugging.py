@@ -62,10 +62,15 @@ def test_the_distance_to_the_wall(measured, words):
         (driven(DISTANCE, DISTANCE - 1.0), ""),
         (driven(DISTANCE, 1.0 - DISTANCE), "the sign of linear.x"),
         (driven(DISTANCE, 0.0 * DISTANCE), "every command is zero"),
+        (driven(DISTANCE, DISTANCE - 0.5, gain=0.8), "to 0.50 m from the wall, not to the 1 m that stop_at says"),
+        (
+            driven(DISTANCE, (DISTANCE - 1.0) * (np.arange(60) % 3 > 0)),
+            "34 % of the commands before it comes to rest are zero",
+        ),
         (driven(DISTANCE, DISTANCE - 1.2), "from the front of the cart"),
         (driven(DISTANCE[:12], DISTANCE[:12] - 1.0, gain=0.1), "still on its way"),
         (driven(DISTANCE, np.sign(DISTANCE - 1.0)), "it does not fall"),
-        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "driven to 1 m, whatever stop_at says"),
+        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "to 1.00 m from the wall, not to the 0.7 m that stop_at"),
         (driven(DISTANCE[:3], DISTANCE[:3]), ""),
     ],
 )

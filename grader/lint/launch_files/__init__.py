@@ -20,7 +20,8 @@ def launch_places(content: bytes) -> dict[str, Places]:
     """Return the places in a launch file, none if it is not Python.
 
     `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
-    names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line` and `name`.
+    names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
+    and `default` (a text, or empty).
     """
     found: dict[str, Places] = {}
 
@@ -31,7 +32,11 @@ def launch_places(content: bytes) -> dict[str, Places]:
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]
         found["fixed_worlds"] = [{"line": line, "world": world} for line, world in values.fixed_worlds(file)][:MOST]
         found["declared"] = [
-            {"line": call.lineno, "name": text(argument(call, "name", 0))}
+            {
+                "line": call.lineno,
+                "name": text(argument(call, "name", 0)),
+                "default": text(file.value(argument(call, "default_value"))),
+            }
             for call in file.calls("DeclareLaunchArgument")
         ]
         return []

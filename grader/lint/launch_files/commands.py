@@ -6,11 +6,13 @@ Source: https://design.ros2.org/articles/ros_command_line_arguments.html
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, last_name, text
 
 SIM_TIME = "use_sim_time"
+OPTION = re.compile(r"--?[a-zA-Z]")
 DETACH = frozenset({"setsid", "nohup", "disown", "tmux", "screen", "&"})
 STARTS_NODES = frozenset({"?", "Node", "LifecycleNode", "GroupAction", "IncludeLaunchDescription", "OpaqueFunction"})
 
@@ -30,7 +32,7 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
     for words in _commands(file):
         for word in words:
             parts = text(word).split()
-            if len(parts) > 1 and parts[0].startswith("-"):
+            if len(parts) > 1 and OPTION.match(parts[0]):
                 apart = ", ".join(repr(part) for part in parts)
                 yield (
                     word.lineno,
@@ -82,7 +84,7 @@ def detached(file: LaunchFile) -> Iterator[Place]:
         given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
         for node in (each for part in given if part is not None for each in ast.walk(part)):
             for word in text(node).split():
-                if word in DETACH:
+                if word in DETACH and isinstance(node, ast.Constant):
                     yield (
                         node.lineno,
                         f"{word} takes the program away from the launch, so that Ctrl-C does not reach it: the actions "
@@ -152,7 +154,8 @@ def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
     """Find use_sim_time declared as an argument of the launch that nothing reads."""
     declared = [call for call in file.calls("DeclareLaunchArgument") if text(argument(call, "name", 0)) == SIM_TIME]
     said = [each for each in file.nodes if SIM_TIME in text(each)]
-    for call in declared if len(said) == len(declared) else ():
+    inherited = any(file.calls("IncludeLaunchDescription"))
+    for call in declared if len(said) == len(declared) and not inherited else ():
         yield (
             call.lineno,
             f"the argument {SIM_TIME} is declared, but nothing reads it: an argument of the launch reaches a node only "
@@ -161,7 +164,9 @@ def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
 
 
 def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
-    """Find gz_sim.launch.py included without the one argument that it reads."""
+    """Find gz_sim.launch.py included without the one argument that it reads; it inherits those of its includer."""
+    if any(text(each) == "gz_args" for each in file.nodes):
+        return
     for call in file.calls("IncludeLaunchDescription"):
         parts = [file.value(each) if isinstance(each, ast.Name) else each for each in ast.walk(call)]
         if not any("gz_sim.launch.py" in text(each) for part in parts if part for each in ast.walk(part)):
@@ -170,9 +175,8 @@ def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
         if given is None:
             yield call.lineno, "gz_sim.launch.py gets no gz_args here, so gz sim gets no world and no -r"
             continue
-        names = [text(each) for each in ast.walk(given)]
         keys = [text(key) for each in ast.walk(given) if isinstance(each, ast.Dict) for key in each.keys if key]
-        if keys and "gz_args" not in names and all(keys):
+        if keys and all(keys):
             yield (
                 given.lineno,
                 f"gz_sim.launch.py has no argument called {keys[0]}: all that gz sim gets, world and -r too, is the "

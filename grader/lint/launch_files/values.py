@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, last_name, text
 
 TRUTHS = frozenset({"True", "False"})
+EQUALS = frozenset({"EqualsSubstitution", "NotEqualsSubstitution", "LaunchConfigurationEquals"})
 PYTHON_TRUTH = re.compile(r"[=!]=\s*['\"]?(True|False)\b")
 WORLD = re.compile(r"(?:^|[\s/])([\w-]+\.(?:sdf|world))$")
 
@@ -105,6 +106,9 @@ def python_truths(file: LaunchFile) -> Iterator[Place]:
             sides = (node.left, node.comparators[0])
             truths = [str(side.value) for side in sides if isinstance(side, ast.Constant)]
             if truths and truths[0] in TRUTHS and any(file.performed(side) for side in sides):
+                yield node.lineno, f"{_code(node)}: {_small(truths[0])}"
+        elif isinstance(node, ast.Call) and last_name(node.func) in EQUALS:
+            if truths := [text(each) for each in node.args if text(each) in TRUTHS]:
                 yield node.lineno, f"{_code(node)}: {_small(truths[0])}"
         elif isinstance(node, ast.Call) and last_name(node.func) == "PythonExpression":
             said = "".join(text(each) for each in ast.walk(node))

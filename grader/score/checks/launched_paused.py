@@ -30,5 +30,5 @@ def launched_paused(recording: Recording, parameters: Table) -> Finding:
     state = "was paused" if found else "ran"
     if found == running[0]["paused"]:
         state += ": gz sim had no -r" if found else ": gz sim had -r"
-    why = "" if found == pause else declared(recording, name)
+    why = "" if found == pause else declared(recording, name, default)
     return Finding(found == pause, expected, f"{called} it {state}", explanation=why)

@@ -23,7 +23,7 @@ def launched_world(recording: Recording, parameters: Table) -> Finding:
     if not running:
         return Finding(False, expected, "no simulator ran")
     found = running[0]["world"]
-    why = "" if found == wanted else declared(recording, name) or _fixed(recording, found)
+    why = "" if found == wanted else declared(recording, name, default) or _fixed(recording, found)
     return Finding(found == wanted, expected, f"{called} it ran {found}", explanation=why)
 
 

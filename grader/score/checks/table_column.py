@@ -48,7 +48,7 @@ def table_column(recording: Recording, parameters: Table) -> Finding:
         said = row[column]
         what = EXPLAIN[column](said, link, facts) if said else f"{WORDS[column]} of {link.ros_topic} is not filled in"
         more = f" ({right} of {len(pairs)} rows are right)" if len(wrong) > 1 else ""
-        why = explain_column(column, pairs, bridges(recording))
+        why = explain_column(column, pairs, bridges(recording), facts.get("gz_topics", {}))
         return Finding(False, expected, f"line {row['line']}: {what}{more}", explanation=why)
     if right < least:
         return Finding(False, expected, f"{right} rows are correct; at least {least:g} are needed", gated=True)

@@ -6,7 +6,7 @@ value: the table is an exercise in finding them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from typing import Any
 
 from gz_course.grader.score.graphs import Bridged, Link
@@ -18,9 +18,11 @@ Row = dict[str, Any]
 Pairs = Sequence[tuple[Row, Link]]
 
 
-def explain_column(column: str, pairs: Pairs, bridges: Sequence[Bridged]) -> str:
+def explain_column(column: str, pairs: Pairs, bridges: Sequence[Bridged], gz_topics: Container[str]) -> str:
     """Return the misconception behind a wrong column; `pairs` are the rows of bridged topics with the truth."""
     filled = [(row, link) for row, link in pairs if row[column]]
+    if column == "gz_topic":
+        return names_below_the_model(filled, gz_topics)
     return next((said for look in LOOKS.get(column, ()) if (said := look(filled, bridges))), "")
 
 
@@ -79,12 +81,15 @@ def names_of_gz_types(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
     )
 
 
-def names_below_the_model(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
-    """Recognise Gazebo topics that were put below the model, or below the world, as the others are."""
+def names_below_the_model(pairs: Pairs, gz_topics: Container[str]) -> str:
+    """Recognise topics that do not exist in Gazebo because they were put below the model or the world."""
     wrong = [(row, link) for row, link in pairs if f"/{row['gz_topic'].lstrip('/')}" != link.gz_topic]
     for start, words in (("/model/", "the model's"), ("/world/", "the world's")):
         if wrong and all(
-            row["gz_topic"].startswith(start) and not link.gz_topic.startswith(start) for row, link in wrong
+            row["gz_topic"].startswith(start)
+            and not link.gz_topic.startswith(start)
+            and row["gz_topic"] not in gz_topics
+            for row, link in wrong
         ):
             return (
                 f"line {wrong[0][0]['line']}: {wrong[0][0]['gz_topic']} has {words} name in it; not every topic has: "
@@ -97,7 +102,6 @@ LOOKS: dict[str, tuple[Callable[[Pairs, Sequence[Bridged]], str], ...]] = {
     "direction": (reversed_directions, one_direction, configured_directions),
     "gz_type": (names_of_ros_types,),
     "ros_type": (names_of_gz_types,),
-    "gz_topic": (names_below_the_model,),
 }
 
 

@@ -55,7 +55,10 @@ def slips(text):
 def test_a_right_file_has_none():
     found = launch_places(RIGHT.encode())
     assert found["launch_slips"] == found["fixed_worlds"] == []
-    assert [each["name"] for each in found["declared"]] == ["world", "paused"]
+    assert [(each["name"], each["default"]) for each in found["declared"]] == [
+        ("world", "empty.sdf"),
+        ("paused", "false"),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -70,6 +73,8 @@ def test_a_right_file_has_none():
         ('.perform(context) == "true":', ".perform(context):", "'false' as well: compare it"),
         ('.perform(context) == "true":', '.perform(context) == "True":', "'true' in small letters, not 'True'"),
         ('.perform(context) == "true":', ".perform(context) is True:", "'true' in small letters, not 'True'"),
+        ("IfCondition(paused)", 'LaunchConfigurationEquals("paused", "True")', "'true' in small letters, not 'True'"),
+        ("IfCondition(paused)", 'LaunchConfigurationEquals("paused", "true")', ""),
         (
             "IfCondition(paused)",
             "IfCondition(PythonExpression([\"'\", paused, \"' == 'True'\"]))",

@@ -196,6 +196,7 @@ def test_a_path_that_leads_elsewhere_is_explained(said, words):
     ("said", "words"),
     [
         ("argument -s: ignored explicit argument 'lidar_room.sdf'", "a space is missing between -s and lidar_room.sdf"),
+        ("argument -s: ignored explicit argument ' -r'", "-s -r is one word"),
         ("world file '<launch.LaunchConfiguration object at 0x7f>' was not found", "a Python object stands in"),
         ("world file 'world' was not found as a path", "LaunchConfiguration('world')"),
         ("world file '/submission/b.sdf' was not found as a path", "looked for in the folder /submission"),
@@ -221,6 +222,21 @@ def test_arguments_of_other_names_and_worlds_that_stand_in_the_command_are_named
         recording = record(facts={"launch": GOOD} | facts, trial_parameters=trial)
         finding = check_kinds()["launched_world"](recording, Table(PARAMETERS["world"], "check 'it'", "parameter"))
         assert not finding.passed and words in finding.explanation and bool(words) == bool(finding.explanation)
+
+
+@pytest.mark.parametrize(
+    ("default", "given", "words"),
+    [
+        ("true", {}, "a.launch.py, line 7: the default_value of paused is 'true', not 'false'"),
+        ("true", {"paused": "false"}, ""),
+        ("False", {}, ""),
+    ],
+)
+def test_a_default_that_is_not_asked_for_is_named(record, default, given, words):
+    facts = {"declared": [{"file": "a.launch.py", "line": 7, "name": "paused", "default": default}], "launch": GOOD}
+    recording = record(facts=facts | {"sim_seconds": 0.0}, trial_parameters=json.dumps({"parameters": given}))
+    finding = check_kinds()["launched_paused"](recording, Table(PARAMETERS["paused"], "check 'it'", "parameter"))
+    assert (finding.passed, finding.explanation) == (False, words)
 
 
 def test_programs_that_did_not_start_and_mistakes_in_the_file_come_first(record):

@@ -27,7 +27,7 @@ def explained(column, *said):
     pairs = []
     for line, (link, value) in enumerate(zip(LINKS, said, strict=True), 1):
         pairs.append(({"line": line, column: getattr(link, column) if value is None else value}, link))
-    return explain_column(column, pairs, BRIDGES)
+    return explain_column(column, pairs, BRIDGES, {"/world/w/clock"})
 
 
 @pytest.mark.parametrize(
@@ -44,6 +44,7 @@ def explained(column, *said):
         ("ros_type", (None, None, None, "std_msgs/msg/Twist"), ""),
         ("gz_topic", ("/model/r/lidar", "/model/r/imu", None, None), "line 1: /model/r/lidar has the model's name"),
         ("gz_topic", ("/world/w/lidar", None, None, None), "has the world's name in it"),
+        ("gz_topic", ("/world/w/clock", None, None, None), ""),
         ("gz_topic", ("/laser", None, None, None), ""),
         ("publisher", ("patrol",) * 4, ""),
     ],
