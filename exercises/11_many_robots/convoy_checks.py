@@ -10,7 +10,7 @@ import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, complaint, deaths, launch_facts, ran
+from gz_course.grader.score.launched import argument, complaint, deaths, launch_facts, logged_error, ran
 
 GAP = 1.2  # [m]
 ROW = 0.15  # [m] that a robot may start beside its place
@@ -31,13 +31,19 @@ def _there(recording):
     return sorted({name.split("/")[1] for name in recording.signals() if name.startswith("truth/")})
 
 
+def _create_said(recording):
+    """Return the first error of a create; empty if all went well."""
+    died = next((death.said for death in deaths(recording) if death.process == "create"), "")
+    return logged_error(recording, "create") or complaint(recording, "create") or died
+
+
 def in_a_row(recording, parameters):
     """Pass if exactly the robots that were asked for are there, each in its place."""
     names, called = _names(recording)
     expected = f"{called}: {', '.join(names)} in a row, {GAP} m apart"
     there = _there(recording)
     if not there:
-        said = complaint(recording, "create") or next((d.words for d in deaths(recording) if d.process == "create"), "")
+        said = _create_said(recording)
         why = "" if said else "create of ros_gz_sim puts a model into a running world"
         if not said and not any(STARTED.match(line.text) for line in recording.lines("log/student")):
             why = (
@@ -47,9 +53,7 @@ def in_a_row(recording, parameters):
         return Finding(False, expected, f"no robot came into the world{': ' if said else ''}{said}", explanation=why)
     if there != sorted(names):
         why = ""
-        failed = complaint(recording, "create") or next(
-            (d.said for d in deaths(recording) if d.process == "create"), ""
-        )
+        failed = _create_said(recording)
         numbers = [name.removeprefix("robot") for name in there]
         if there == names[:-1] and not failed:
             why = (
@@ -59,6 +63,8 @@ def in_a_row(recording, parameters):
         elif len(there) < len(names) and there == names[: len(there)]:
             why = f"the argument robots has no effect, or a create failed: {len(names)} robots were asked for"
             why = f"a create failed: {failed}" if failed else why
+        elif len(there) < len(names) and failed:
+            why = f"a create failed: {failed}"
         elif len(there) == len(names) and numbers == [str(number) for number in range(len(there))]:
             why = "range(n) begins with 0, and the first robot is robot1: range(1, n + 1)"
         elif len(there) == len(names):

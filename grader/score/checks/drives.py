@@ -21,6 +21,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording, Signal
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.explanations.of_robots import driving
+from gz_course.grader.score.explanations.of_robots.overlaps import overlap
 from gz_course.grader.score.explanations.of_robots.topics import commands_elsewhere, why_not_carried
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import launch_facts, logged_error
@@ -60,7 +61,8 @@ def drives(recording: Recording, parameters: Table) -> Finding:
             why = _silent(recording, topic) if abs(ratio) < STILL else ""
             if not why and abs(ratio) < STILL:
                 why = _stuck(recording, body, topic, joints, start, end, swerve if straight else 0.0)
-            why = why or (_linear if straight else _angular)(ratio, body, wanted)
+            pushes = overlap(launch_facts(recording).get("model_warnings", []), robot)
+            why = why or (_linear if straight else _angular)(ratio, body, wanted, pushes)
             return Finding(False, expected, measured, start, explanation=why)
         if swerve > drift:
             if straight:
@@ -133,13 +135,19 @@ def _stuck(
     return f"its wheels turned, but did not roll along the ground: {more}"
 
 
-def _linear(ratio: float, body: Robot | None, wanted: float) -> str:
+def _linear(ratio: float, body: Robot | None, wanted: float, pushes: str) -> str:
+    """Return why a robot is `ratio` times as fast as the `wanted` speed; `pushes` names parts of it that overlap."""
     if abs(ratio + 1) < 0.2:
         return "it drives backwards: the axes of both wheels point the wrong way (to the left is forward)"
     if ratio < 0:
         return "it drives backwards, and at another speed"
-    if body and (why := driving.other_speed(body, wanted, ratio)):
+    if why := (driving.other_speed(body, wanted, ratio) if body else "") or pushes:
         return f"it drives {told(ratio)} times as fast as commanded: {why}"
+    if body and ratio < 1 and driving.has_the_radius(body):
+        return (
+            f"it drives {told(ratio)} times as fast as commanded, and <wheel_radius> is right: its weight, too little "
+            "grip, or a part that drags holds it back"
+        )
     return (
         f"it drives {told(ratio)} times as fast as commanded: the plugin's <wheel_radius> is {told(1 / ratio)} times "
         "the radius of its wheels, or a limit of the plugin, the weight or the grip holds it back"
@@ -149,15 +157,15 @@ def _linear(ratio: float, body: Robot | None, wanted: float) -> str:
     )
 
 
-def _angular(ratio: float, body: Robot | None, wanted: float) -> str:
-    why = next(filter(None, driving.turns_slowly(body, wanted)), "") if body else ""
+def _angular(ratio: float, body: Robot | None, wanted: float, pushes: str) -> str:
+    why = (next(filter(None, driving.turns_slowly(body, wanted)), "") if body else "") or pushes
     if abs(ratio) < STILL:
         return f"it did not turn: {why}" if why else "it did not turn"
     if ratio < 0:
         if body and (where := driving.sides_exchanged(body)):
             return f"it turns the wrong way: the sides are exchanged: {where}"
         return "it turns the wrong way: <left_joint> and <right_joint> of the plugin are exchanged, or the wheels are"
-    if why and (ratio < 1 or "wheel_separation" in why):
+    if why and (ratio < 1 or why == pushes or "wheel_separation" in why):
         return f"it turns {told(ratio)} times as fast as commanded: {why}"
     more = ", or something holds it back: a caster that grips the ground" if ratio < 1 else ""
     return (

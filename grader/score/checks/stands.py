@@ -17,6 +17,9 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.explanations.of_robots import standing
+from gz_course.grader.score.explanations.of_robots.masses import odd_mass
+from gz_course.grader.score.explanations.of_robots.overlaps import overlap
+from gz_course.grader.score.launched import launch_facts
 from gz_course.grader.score.robots import Robot, robot_of
 from gz_course.grader.score.steps import told
 
@@ -68,7 +71,8 @@ def stands(recording: Recording, parameters: Table) -> Finding:
         elif why == FALLS and times[first] > until:
             why = TIPS
         if body := robot_of(recording, robot):
-            why = _of_its_parts(body, why, float(values["z"][0]))
+            warnings = launch_facts(recording).get("model_warnings", [])
+            why = _of_its_parts(body, why, float(values["z"][0]), overlap(warnings, robot))
         worst = amount[np.argmax(np.abs(amount) * wrong)]
         at = float(times[first])
         return Finding(False, expected, said.format(told(float(worst)), told(at)), round(at, 3), explanation=why)
@@ -77,8 +81,11 @@ def stands(recording: Recording, parameters: Table) -> Finding:
     return Finding(True, expected, f"it leaned by at most {told(float(leaning.max()))} rad")
 
 
-def _of_its_parts(body: Robot, why: str, height: float) -> str:
-    """Return `why` more exactly, if the parts of a robot that came at `height` [m] prove the reason."""
+def _of_its_parts(body: Robot, why: str, height: float, pushes: str) -> str:
+    """Return `why` more exactly, if the parts of a robot that came at `height` [m] prove the reason.
+
+    `pushes` names parts that overlap.
+    """
     said = ""
     if why == FALLS and (said := standing.falls_over(body)):
         said = f"it falls over: {said}"
@@ -88,6 +95,6 @@ def _of_its_parts(body: Robot, why: str, height: float) -> str:
         said = standing.without_collisions(body) or standing.above_the_ground(body, height)
     elif why == PUSHED:
         said = standing.in_the_ground(body, height)
-    if not said and (said := standing.huge_effects(body)):
+    if not said and (said := odd_mass(body) or pushes):
         said = f"{why.partition(':')[0]}: {said}"
     return said or why

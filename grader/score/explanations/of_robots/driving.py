@@ -62,7 +62,17 @@ def wheels_of(robot: Robot) -> list[Wheel]:
 
 def does_not_drive(robot: Robot) -> str:
     """Return why the robot cannot roll ahead at all."""
-    looks = (no_plugin, one_joint_twice, limited_joint, wrong_axis, lies_flat, without_collision, hangs, of_one_side)
+    looks = (
+        no_plugin,
+        one_joint_twice,
+        limited_joint,
+        wrong_axis,
+        lies_flat,
+        without_collision,
+        hangs,
+        of_one_side,
+        odd_mass,
+    )
     return next(filter(None, (look(robot) for look in looks)), "")
 
 
@@ -207,6 +217,12 @@ def other_radius(robot: Robot) -> str:
                 f"{_double(stated / wheel.radius)}"
             )
     return ""
+
+
+def has_the_radius(robot: Robot) -> bool:
+    """Return whether the plugin has the radius of all wheels."""
+    wheels = wheels_of(robot)
+    return bool(wheels) and all(wheel.radius for wheel in wheels) and not other_radius(robot)
 
 
 def _double(ratio: float) -> str:

@@ -93,8 +93,3 @@ def tips_over(robot: Robot) -> str:
             "of what it stands on: lower it, or move it away from the edge"
         )
     return ""
-
-
-def huge_effects(robot: Robot) -> str:
-    """Return a mass that no physics engine balances with the rest."""
-    return odd_mass(robot)

@@ -8,6 +8,7 @@ import pytest
 from gz_course.grader.kinds.launch.robot_facts import MOST_PARTS, robot_facts
 from gz_course.grader.score.explanations.of_robots import driving, scanning, standing, topics
 from gz_course.grader.score.explanations.of_robots.description import at_work_on, description_meaning
+from gz_course.grader.score.explanations.of_robots.overlaps import overlap
 from gz_course.grader.score.explanations.of_robots.placing import misplaced
 from gz_course.grader.score.graphs import Bridged
 from gz_course.grader.score.robots import robot_of
@@ -243,6 +244,14 @@ def test_where_a_robot_came_instead(place, words):
 )
 def test_what_is_wrong_with_a_description(said, words):
     assert words in description_meaning(said) and bool(words) == bool(description_meaning(said))
+
+
+def test_parts_that_start_inside_each_other():
+    caster, mast = (f"scout::base::base_fixed_joint_lump__{name}_collision_1" for name in ("caster", "mast"))
+    ground = f"'ground_plane::link::c' and '{caster}' are 0.015 m inside each other"
+    own = f"'scout::left_wheel::c' and '{mast}' are 0.02 m inside each other; they are pushed apart"
+    assert overlap([ground], "scout") == "" and overlap([own], "robot") == ""
+    assert overlap([ground, own], "scout").startswith("left_wheel and mast are 0.02 m inside each other")
 
 
 def test_a_robot_that_is_too_large_for_create(record):
