@@ -84,7 +84,8 @@ def measures(run, times, bearings, ranges):
     if not share:
         return ""
     right, other = share["right"], "right" if run.side == "left" else "left"
-    if share["other side"] > 0.7 and share["other side"] > max(right + 0.2, share["all around"] - 0.03):
+    beside, other_ray = max(share["beside"], share["beside, two"]), share["beside, other"]
+    if share["other side"] > 0.7 and share["other side"] > max(right + 0.2, share["all around"] - 0.03, other_ray):
         return (
             f"angular.z follows the nearest point on the {other} of the robot, and side is {run.side!r}: the bearings "
             "of a scan grow to the left (counter-clockwise), ray i looks to angle_min + i * angle_increment"
@@ -93,19 +94,22 @@ def measures(run, times, bearings, ranges):
         return f"angular.z follows the nearest range of all directions: take the nearest one on the {run.side} side"
     if share["behind"] > 0.9 and share["behind"] > right + 0.2:
         return "angular.z follows the ray behind the robot: ray 0 looks to angle_min, which is -3.14, and not ahead"
-    if share["beside, other"] > 0.85 and share["beside, other"] > right + 0.2:
+    if other_ray > 0.85 and other_ray > right + 0.2:
         return (
             f"angular.z follows the ray on the {other} of the robot, and side is {run.side!r}: ray i looks to "
             "angle_min + i * angle_increment, and angle_min is -3.14, behind the robot"
         )
-    if share["distance alone"] > 0.95 and share["distance alone"] > right + 0.02:
+    if (
+        share["distance alone"] > 0.95
+        and _clearly(share["distance alone"], right)
+        and share["distance alone"] >= beside
+    ):
         return (
             "angular.z depends on the distance alone, and not on the heading towards the wall, so the robot comes to "
             "the wanted distance at an angle, and overshoots: let the bearing of the nearest point, which should be "
             "abeam, count too"
         )
-    beside = max(share["beside"], share["beside, two"])
-    if beside > 0.95 and beside > right + 0.05:
+    if beside > 0.95 and _clearly(beside, right):
         return (
             f"angular.z follows the rays straight to the {run.side} alone: a wall ahead, or a corner, is not seen "
             "until it is beside the robot; take the nearest of all rays from ahead to behind on that side"
@@ -118,3 +122,8 @@ def measures(run, times, bearings, ranges):
             "distance is the nearest of them"
         )
     return ""
+
+
+def _clearly(share, other):
+    """Return whether one share leaves less than half as much unexplained as another."""
+    return 1 - share < 0.5 * (1 - other)

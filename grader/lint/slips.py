@@ -16,7 +16,6 @@ MOST = 3  # places reported at most
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
 CREATE = {"create_timer": 1, "create_subscription": 2}  # method -> position of its callback
-HANDED_OVER = CREATE | {"registerCallback": 0, "ActionServer": 3}
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
@@ -90,7 +89,7 @@ def periods(tree: ast.AST) -> Iterator[Place]:
 def called_callbacks(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that is called where it should be handed over."""
     for call, name in _calls(tree):
-        place = HANDED_OVER.get(name)
+        place = CREATE.get(name)
         given = call.args[place] if place is not None and len(call.args) > place else None
         given = next((each.value for each in call.keywords if each.arg == "callback"), given)
         if isinstance(given, ast.Call) and not given.args and place is not None:
