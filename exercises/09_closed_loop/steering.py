@@ -54,11 +54,12 @@ def explained(values, rates, asked):
     if len(rates) < FEWEST or rates.var() < 1e-4:
         return 0.0
     points = np.hstack([values / SCALE, asked[:, None] / ASKED])
-    away = np.sqrt(((points[:, None] - points[None]) ** 2).sum(axis=2))
+    squares = (points**2).sum(axis=1)
+    away = squares[:, None] + squares[None] - 2 * points @ points.T  # squared distances
     number = np.arange(len(points))
     away[np.abs(number[:, None] - number) <= APART] = np.inf
-    order = np.argsort(away, axis=1)[:, :NEIGHBOURS]
-    near = np.take_along_axis(away, order, axis=1)[:, -1] < ALIKE
+    order = np.argpartition(away, NEIGHBOURS, axis=1)[:, :NEIGHBOURS]
+    near = np.take_along_axis(away, order, axis=1).max(axis=1) < ALIKE**2
     if near.sum() < FEWEST or rates[near].var() < 1e-4:
         return 0.0
     off = rates[near] - rates[order[near]].mean(axis=1)

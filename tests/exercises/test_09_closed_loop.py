@@ -14,7 +14,7 @@ STEERING = runpy.run_path(str(FOLDER / "steering.py"))
 WALL = runpy.run_path(str(FOLDER / "wall.py"))
 
 BEARINGS = np.linspace(-np.pi, np.pi, 180, endpoint=False)
-SCANS = 400
+SCANS = 300
 
 
 def walls(draw, side):
