@@ -112,7 +112,7 @@ def places_the_posts(recording, parameters):
         lost = red[[name in missing for name in names]]
         why = misconceptions().missing_posts(recording, points, stamps, lost)
         seen = f"{measured}, but none at {len(missing)} of the {len(red)} red posts"
-        return Finding(False, expected, seen, explanation=why)
+        return Finding(False, expected, seen, gated=not turns_once(recording, parameters).passed, explanation=why)
     first = int(np.argmin(right))
     ahead, left = points[first, :2]
     nearest = red[np.argmin(np.linalg.norm(red - there[first], axis=1))]

@@ -15,6 +15,7 @@ FEWEST = 40  # scans
 NOTHING = 6.0  # [m] for a ray that hit nothing
 LIMIT = 1.5  # [rad/s]
 THICK = 0.04  # [m] ranges that are as near as the nearest one, with noise
+EDGES = (-45, 0, 30, 50, 75, 90, 105, 130, 150)  # [degrees] of sectors that a node may look at
 
 
 def measured(bearings, ranges):
@@ -22,10 +23,7 @@ def measured(bearings, ranges):
     ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
 
     def nearest(chosen):
-        part, directions = ranges[:, chosen], bearings[chosen]
-        least = part.min(axis=1)
-        there = part < least[:, None] + THICK
-        return np.stack([least, (there * directions).sum(axis=1) / there.sum(axis=1)], axis=1)
+        return nearest_point(bearings[chosen], ranges[:, chosen])
 
     def towards(direction, width=0.06):
         off = np.abs(np.remainder(bearings - direction + np.pi, 2 * np.pi) - np.pi)
@@ -44,6 +42,28 @@ def measured(bearings, ranges):
         "behind": towards(np.pi, 0.1),
         "mean": ranges[:, (bearings > 0.2) & (bearings < 2.8)].mean(axis=1)[:, None],
     }
+
+
+def nearest_point(bearings, ranges):
+    """Return range and bearing of the nearest point, shape (scans, 2)."""
+    least = ranges.min(axis=1)
+    there = ranges < least[:, None] + THICK
+    return np.stack([least, (there * bearings).sum(axis=1) / there.sum(axis=1)], axis=1)
+
+
+def sector(bearings, ranges, rates, asked):
+    """Return the sector (from, to) [degrees] whose nearest point, or distance, explains most, and the share of it."""
+    ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
+    best = (0, 0), 0.0
+    for number, low in enumerate(EDGES):
+        for high in EDGES[number + 1 :]:
+            if high - low > 140:
+                continue  # that is the side, or nearly
+            chosen = (bearings >= np.radians(low)) & (bearings <= np.radians(high))
+            point = nearest_point(bearings[chosen], ranges[:, chosen])
+            share = max(explained(point, rates, asked), explained(point[:, :1], rates, asked))
+            best = max(best, ((low, high), share), key=lambda each: each[1])
+    return best
 
 
 def explained(values, rates, asked):
@@ -68,15 +88,20 @@ def explained(values, rates, asked):
 
 def follows(run, times, bearings, ranges):
     """Return what the turning rates depend on: by name, the share of their variance that it explains."""
+    heard, rates, asked = answered(run, times)
+    if heard.sum() < FEWEST:
+        return {}
+    found = measured(bearings, ranges[heard])
+    return {name: explained(values, rates, asked) for name, values in found.items()}
+
+
+def answered(run, times):
+    """Return to which scans a command came, the turning rates [rad/s] towards the side, and the distances asked for."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     index = np.searchsorted(signal.times / 1e9, times)
     heard = (index < len(signal.times)) & (times > 0.5)
-    if heard.sum() < FEWEST:
-        return {}
     rates = np.clip(run.sign * signal.values[index[heard]], -LIMIT, LIMIT)
-    asked = np.interp(times[heard], run.times, run.wanted)
-    found = measured(bearings, ranges[heard])
-    return {name: explained(values, rates, asked) for name, values in found.items()}
+    return heard, rates, np.interp(times[heard], run.times, run.wanted)
 
 
 def measures(run, times, bearings, ranges):
@@ -121,6 +146,13 @@ def measures(run, times, bearings, ranges):
         return (
             f"angular.z follows the mean of the ranges on the {run.side}, which depends on all that is far away: the "
             "distance is the nearest of them"
+        )
+    heard, rates, asked = answered(run, times)
+    (low, high), found = sector(bearings, ranges[heard], rates, asked) if right < 0.93 else ((0, 0), 0.0)
+    if found > 0.9 and _clearly(found, right):
+        return (
+            f"angular.z follows the rays between about {low} and {high} degrees from ahead to the {run.side} only: the "
+            "nearest point of the wall may be anywhere from ahead to behind on that side"
         )
     return ""
 
