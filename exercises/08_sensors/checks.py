@@ -92,7 +92,7 @@ def places_the_posts(recording, parameters):
     expected = f"points within {NEAR:g} m of the red posts, at least one for each of them"
     points, stamps, came = said_points(recording)
     if len(points) < FEWEST:
-        number = f"{len(points)} points came on /red_post" if len(points) else "no point came on /red_post"
+        number = f"{len(points) or 'no'} points came on /red_post"
         why = misconceptions().too_few_points(recording, points)
         return Finding(False, expected, f"{number}, at least {FEWEST} are needed", explanation=why)
     red, names = posts(recording, "red")
@@ -112,7 +112,7 @@ def places_the_posts(recording, parameters):
         lost = red[[name in missing for name in names]]
         why = misconceptions().missing_posts(recording, points, stamps, lost)
         seen = f"{measured}, but none at {len(missing)} of the {len(red)} red posts"
-        return Finding(False, expected, seen, explanation=why)
+        return Finding(False, expected, seen, gated=not turns_once(recording, parameters).passed, explanation=why)
     first = int(np.argmin(right))
     ahead, left = points[first, :2]
     nearest = red[np.argmin(np.linalg.norm(red - there[first], axis=1))]
@@ -121,9 +121,11 @@ def places_the_posts(recording, parameters):
         f"; the first wrong one, stamped {stamps[first] / 1e9:.2f} s, was {ahead:.2f} m ahead and {left:.2f} m left; "
         f"the nearest red post was {true[0] - RADIUS:.2f} m ahead and {true[1]:.2f} m left"
     )
-    why = why_misplaced(recording, points, stamps, came, right)
-    if not why or "different times" in why:
-        why = misconceptions().misplaced(recording, points, stamps, right) or why
+    why = (
+        why_misplaced(recording, points, stamps, right)
+        or misconceptions().misplaced(recording, points, stamps, right)
+        or why_somewhere(recording, points, stamps, right)
+    )
     return Finding(False, expected, measured, round(float(came[first] / 1e9), 3), explanation=why)
 
 
@@ -134,7 +136,7 @@ def before_camera(at, place):
     return dx * math.cos(yaw) + dy * math.sin(yaw) - CAMERA_AHEAD, dy * math.cos(yaw) - dx * math.sin(yaw)
 
 
-def why_misplaced(recording, points, stamps, came, right):
+def why_misplaced(recording, points, stamps, right):
     """Return the misconception that explains most of the wrong points; empty if none does."""
     red, _ = posts(recording, "red")
     at = pose(recording, stamps)
@@ -168,11 +170,19 @@ def why_misplaced(recording, points, stamps, came, right):
     for (ahead, left, where), words in candidates:
         if fits(ahead, left, where):
             return words
+    return ""
+
+
+def why_somewhere(recording, points, stamps, right):
+    """Return what kind of wrong points these are if no misconception fits them; empty if that is not known."""
+    red, at = posts(recording, "red")[0], pose(recording, stamps)
+    x, y, _ = points.T
+    wrong = ~right
     turning = np.abs(truth(recording, "angular_z", stamps)) > 0.3
     if (~turning).sum() >= 3 and right[~turning].mean() >= SHARE:
         words = "the points are right while the robot stands and wrong while it turns: "
         for lag in (0.2, 0.4, -0.2, -0.4):
-            if fits(x, y, pose(recording, stamps - round(lag * 1e9))):
+            if hits(placed(pose(recording, stamps - round(lag * 1e9)), x, y), red)[wrong].mean() >= 0.75:
                 return f"{words}the stamp is not that of the picture"
         return f"{words}colour and depth are of different times"
     if directed(at, x, y, red)[wrong].mean() >= 0.75:
@@ -206,14 +216,15 @@ def why_beside(at, ahead, left, places, right):
     share = left[known] / true[known]
     if abs(float(np.median(share)) - 1) <= 0.1 and np.mean(np.abs(share - 1) <= 0.15) >= 0.8:
         return ""
-    factors = {"": left[known] / true[known], " for each metre ahead": left[known] / true[known] * ahead[known]}
-    for words, factor in factors.items():
-        usual = float(np.median(factor))
-        if abs(usual - 1) > 0.1 and np.mean(np.abs(factor - usual) <= 0.1 * abs(usual)) >= 0.8:
-            if words:
-                return "ahead is right, left is not: it does not grow with the distance, it lacks the factor ahead"
-            return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
-    return ""
+    factors = {"": share, " for each metre ahead": share * ahead[known]}
+    spread = {words: np.abs(factor / np.median(factor) - 1) for words, factor in factors.items()}
+    words = min(spread, key=lambda each: spread[each].mean())
+    usual = float(np.median(factors[words]))
+    if np.mean(spread[words] <= 0.1) < 0.8 or (not words and abs(usual - 1) <= 0.1):
+        return ""
+    if words:
+        return "ahead is right, left is not: it does not grow with the distance, it lacks the factor ahead"
+    return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
 
 
 def directed(at, ahead, left, places):
@@ -305,8 +316,7 @@ def counts_the_posts(recording, parameters):
     pictures = int((recording.signal("topics/camera/image/count").times <= first[0]).sum())
     turned = float(np.diff(truth(recording, "yaw", np.array([0, first[0]])))[0])
     if number < red and abs(turned) < 0.9 * FULL_TURN:
-        degrees = math.degrees(turned)
-        why = f"the number came when the robot had turned by {degrees:.0f} degrees: the rest was not seen yet"
+        why = f"it came when the robot had turned by {math.degrees(turned):.0f} degrees: the rest was not seen yet"
     elif number == len(posts(recording, "blue")[0]) != red:
         why = "that is the number of blue posts"
     elif number > 3 * max(pictures, 1):

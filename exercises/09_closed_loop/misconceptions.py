@@ -32,6 +32,7 @@ def explain(run):
         wound_up,
         saturated,
         swings,
+        weak,
         against_a_wall,
         elsewhere,
         slow,
@@ -180,6 +181,12 @@ def saturated(run):
     share = float((np.abs(signal.values) > 1.45).mean()) if len(signal) else 0.0
     if share < 0.3:
         return ""
+    jumps = np.abs(np.diff(signal.values)) > 2.0
+    if jumps.mean() > 0.15:
+        return (
+            f"angular.z was at its limit in {share:.0%} of the commands, and jumped from one limit to the other "
+            f"{jumps.sum()} times: the gain is far too high for the time between two scans"
+        )
     return (
         f"angular.z was at its limit in {share:.0%} of the commands: a gain is far too high, or a term grows without "
         "end, such as an integral (wind-up)"
@@ -195,6 +202,19 @@ def swings(run):
     return (
         f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
         "only the distance is fed back, or the gain is too high for the time between two scans"
+    )
+
+
+def weak(run):
+    """Find out whether the robot never turns much, however wrong its distance is."""
+    rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    late = run.times > 3.0
+    worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
+    if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
+        return ""
+    return (
+        f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
+        "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
     )
 
 

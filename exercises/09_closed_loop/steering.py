@@ -15,6 +15,7 @@ FEWEST = 40  # scans
 NOTHING = 6.0  # [m] for a ray that hit nothing
 LIMIT = 1.5  # [rad/s]
 THICK = 0.04  # [m] ranges that are as near as the nearest one, with noise
+EDGES = (-45, 0, 30, 50, 75, 90, 105, 130, 150)  # [degrees] of sectors that a node may look at
 
 
 def measured(bearings, ranges):
@@ -22,10 +23,7 @@ def measured(bearings, ranges):
     ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
 
     def nearest(chosen):
-        part, directions = ranges[:, chosen], bearings[chosen]
-        least = part.min(axis=1)
-        there = part < least[:, None] + THICK
-        return np.stack([least, (there * directions).sum(axis=1) / there.sum(axis=1)], axis=1)
+        return nearest_point(bearings[chosen], ranges[:, chosen])
 
     def towards(direction, width=0.06):
         off = np.abs(np.remainder(bearings - direction + np.pi, 2 * np.pi) - np.pi)
@@ -46,6 +44,28 @@ def measured(bearings, ranges):
     }
 
 
+def nearest_point(bearings, ranges):
+    """Return range and bearing of the nearest point, shape (scans, 2)."""
+    least = ranges.min(axis=1)
+    there = ranges < least[:, None] + THICK
+    return np.stack([least, (there * bearings).sum(axis=1) / there.sum(axis=1)], axis=1)
+
+
+def sector(bearings, ranges, rates, asked):
+    """Return the sector (from, to) [degrees] whose nearest point, or distance, explains most, and the share of it."""
+    ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
+    best = (0, 0), 0.0
+    for number, low in enumerate(EDGES):
+        for high in EDGES[number + 1 :]:
+            if high - low > 140:
+                continue  # that is the side, or nearly
+            chosen = (bearings >= np.radians(low)) & (bearings <= np.radians(high))
+            point = nearest_point(bearings[chosen], ranges[:, chosen])
+            share = max(explained(point, rates, asked), explained(point[:, :1], rates, asked))
+            best = max(best, ((low, high), share), key=lambda each: each[1])
+    return best
+
+
 def explained(values, rates, asked):
     """Return which share of the variance of turning rates [rad/s] some measured values (n, k) explain.
 
@@ -54,11 +74,12 @@ def explained(values, rates, asked):
     if len(rates) < FEWEST or rates.var() < 1e-4:
         return 0.0
     points = np.hstack([values / SCALE, asked[:, None] / ASKED])
-    away = np.sqrt(((points[:, None] - points[None]) ** 2).sum(axis=2))
+    squares = (points**2).sum(axis=1)
+    away = squares[:, None] + squares[None] - 2 * points @ points.T  # squared distances
     number = np.arange(len(points))
     away[np.abs(number[:, None] - number) <= APART] = np.inf
-    order = np.argsort(away, axis=1)[:, :NEIGHBOURS]
-    near = np.take_along_axis(away, order, axis=1)[:, -1] < ALIKE
+    order = np.argpartition(away, NEIGHBOURS, axis=1)[:, :NEIGHBOURS]
+    near = np.take_along_axis(away, order, axis=1).max(axis=1) < ALIKE**2
     if near.sum() < FEWEST or rates[near].var() < 1e-4:
         return 0.0
     off = rates[near] - rates[order[near]].mean(axis=1)
@@ -67,15 +88,20 @@ def explained(values, rates, asked):
 
 def follows(run, times, bearings, ranges):
     """Return what the turning rates depend on: by name, the share of their variance that it explains."""
+    heard, rates, asked = answered(run, times)
+    if heard.sum() < FEWEST:
+        return {}
+    found = measured(bearings, ranges[heard])
+    return {name: explained(values, rates, asked) for name, values in found.items()}
+
+
+def answered(run, times):
+    """Return to which scans a command came, the turning rates [rad/s] towards the side, and the distances asked for."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     index = np.searchsorted(signal.times / 1e9, times)
     heard = (index < len(signal.times)) & (times > 0.5)
-    if heard.sum() < FEWEST:
-        return {}
     rates = np.clip(run.sign * signal.values[index[heard]], -LIMIT, LIMIT)
-    asked = np.interp(times[heard], run.times, run.wanted)
-    found = measured(bearings, ranges[heard])
-    return {name: explained(values, rates, asked) for name, values in found.items()}
+    return heard, rates, np.interp(times[heard], run.times, run.wanted)
 
 
 def measures(run, times, bearings, ranges):
@@ -84,7 +110,8 @@ def measures(run, times, bearings, ranges):
     if not share:
         return ""
     right, other = share["right"], "right" if run.side == "left" else "left"
-    if share["other side"] > 0.7 and share["other side"] > max(right + 0.2, share["all around"] - 0.03):
+    beside, other_ray = max(share["beside"], share["beside, two"]), share["beside, other"]
+    if share["other side"] > 0.7 and share["other side"] > max(right + 0.2, share["all around"] - 0.03, other_ray):
         return (
             f"angular.z follows the nearest point on the {other} of the robot, and side is {run.side!r}: the bearings "
             "of a scan grow to the left (counter-clockwise), ray i looks to angle_min + i * angle_increment"
@@ -93,19 +120,22 @@ def measures(run, times, bearings, ranges):
         return f"angular.z follows the nearest range of all directions: take the nearest one on the {run.side} side"
     if share["behind"] > 0.9 and share["behind"] > right + 0.2:
         return "angular.z follows the ray behind the robot: ray 0 looks to angle_min, which is -3.14, and not ahead"
-    if share["beside, other"] > 0.85 and share["beside, other"] > right + 0.2:
+    if other_ray > 0.85 and other_ray > right + 0.2:
         return (
             f"angular.z follows the ray on the {other} of the robot, and side is {run.side!r}: ray i looks to "
             "angle_min + i * angle_increment, and angle_min is -3.14, behind the robot"
         )
-    if share["distance alone"] > 0.95 and share["distance alone"] > right + 0.02:
+    if (
+        share["distance alone"] > 0.95
+        and _clearly(share["distance alone"], right)
+        and share["distance alone"] >= beside
+    ):
         return (
             "angular.z depends on the distance alone, and not on the heading towards the wall, so the robot comes to "
             "the wanted distance at an angle, and overshoots: let the bearing of the nearest point, which should be "
             "abeam, count too"
         )
-    beside = max(share["beside"], share["beside, two"])
-    if beside > 0.95 and beside > right + 0.05:
+    if beside > 0.95 and _clearly(beside, right):
         return (
             f"angular.z follows the rays straight to the {run.side} alone: a wall ahead, or a corner, is not seen "
             "until it is beside the robot; take the nearest of all rays from ahead to behind on that side"
@@ -117,4 +147,16 @@ def measures(run, times, bearings, ranges):
             f"angular.z follows the mean of the ranges on the {run.side}, which depends on all that is far away: the "
             "distance is the nearest of them"
         )
+    heard, rates, asked = answered(run, times)
+    (low, high), found = sector(bearings, ranges[heard], rates, asked) if right < 0.93 else ((0, 0), 0.0)
+    if found > 0.9 and _clearly(found, right):
+        return (
+            f"angular.z follows the rays between about {low} and {high} degrees from ahead to the {run.side} only: the "
+            "nearest point of the wall may be anywhere from ahead to behind on that side"
+        )
     return ""
+
+
+def _clearly(share, other):
+    """Return whether one share leaves less than half as much unexplained as another."""
+    return 1 - share < 0.5 * (1 - other)

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.angles import Suspect, assigned, calls
+from gz_course.grader.lint.headings import Suspect, assigned, calls
 
 TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
 WRAPS = frozenset({"remainder", "fmod", "atan2", "arctan2", "wrap", "normalize", "normalize_angle"})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.angles import Suspect, last_name
+from gz_course.grader.lint.headings import Suspect, last_name
 
 
 def by_number(tree: ast.AST) -> Iterator[Suspect]:

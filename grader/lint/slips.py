@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint import (
     action_servers,
+    angles,
     callbacks,
     names,
     no_effect,
@@ -237,5 +238,5 @@ LOOKS = (
 ROOMS = (
     LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
     parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
-    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS,
+    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
 )  # fmt: skip

@@ -9,10 +9,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import angles, gyroscopes, rays
+from gz_course.grader.lint import gyroscopes, headings, rays
 from gz_course.grader.lint.syntax import Places, places_in
 
-LOOKS = (*angles.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS)
+LOOKS = (*headings.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS)
 MOST = 12  # suspects kept
 
 

@@ -13,7 +13,6 @@ from gz_course.grader.score.explanations.of_errors.imports import import_fault, 
 from gz_course.grader.score.explanations.of_errors.node_interface import arguments, attributes, own_arguments
 from gz_course.grader.score.explanations.of_errors.operands import calls, lists, operands
 from gz_course.grader.score.explanations.of_errors.syntax import syntax
-from gz_course.grader.score.explanations.of_errors.transforms import transform_fault
 from gz_course.grader.score.explanations.of_errors.values import impossible
 from gz_course.sim.did_you_mean import nearest_name
 

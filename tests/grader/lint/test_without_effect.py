@@ -111,6 +111,14 @@ WRONG = {
     "has the whole seconds only": ("        best = 9.0", "        best = Time(seconds=self.stamp.sec)"),
     "of Python's logging shows nothing here": ("import rclpy\n",
      "import logging\nlogging.getLogger('a').info('b')\nimport rclpy\n"),
+    # angles.py
+    "sin() takes radians, not degrees": ("        best = 9.0", "        best = math.sin(90)"),
+    "angle_min of a LaserScan is in radians already": ("        best = 9.0",
+     "        best = math.radians(ranges.angle_min)"),
+    "atan2 takes y first and x second": ("        best = 9.0",
+     "        best = math.atan2(goal.x - self.x, goal.y - self.y)"),
+    "is no angle: z of a quaternion": ("        best = 9.0",
+     "        yaw = message.pose.orientation.z\n        best = yaw"),
     # no_effect.py
     "compares and throws the result away": ("self.done = True", "self.done == True"),
     "is computed and thrown away": ("self.done = True", "self.done + 1"),

@@ -47,7 +47,7 @@ MEANINGS = (
         "an index is a whole number: int(...)",
     ),
     (
-        re.compile(r"TypeError: (?:list|tuple|array) indices must be integers(?: or slices)?, not float"),
+        re.compile(r"TypeError: (?:list|tuple|array) indices must be integers(?: or slices)?, not (?:numpy\.)?float"),
         "an index is a whole number: int(...)",
     ),
     (
