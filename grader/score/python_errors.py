@@ -6,13 +6,14 @@ Only errors with a certain cause are listed: a wrong guess is worse than none.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from gz_course.grader.score.explanations.of_errors import libraries
 from gz_course.grader.score.explanations.of_errors.imports import import_fault, unknown_name
 from gz_course.grader.score.explanations.of_errors.node_interface import arguments, attributes, own_arguments
 from gz_course.grader.score.explanations.of_errors.operands import calls, lists, operands
 from gz_course.grader.score.explanations.of_errors.syntax import syntax
+from gz_course.grader.score.explanations.of_errors.transforms import transform_fault
 from gz_course.grader.score.explanations.of_errors.values import impossible
 from gz_course.sim.did_you_mean import nearest_name
 
@@ -333,12 +334,17 @@ def meaning(error: str, code: str = "") -> str:
 
     `code` is the line of the program at the end of the traceback.
     """
-    for look in LOOKS:
-        if said := look(error, code):
-            return said
-    if said := _field(error):
-        return said
-    for pattern, words in (*libraries.MEANINGS, *MEANINGS):
-        if match := pattern.search(error):
-            return words.format(*match.groups())
-    return impossible(error, code)
+    known = (
+        transform_fault(error),
+        *(look(error, code) for look in LOOKS),
+        _listed(error, libraries.MEANINGS),
+        _field(error),
+        _listed(error, MEANINGS),
+        impossible(error, code),
+    )
+    return next(filter(None, known), "")
+
+
+def _listed(error: str, meanings: Iterable[tuple[re.Pattern[str], str]]) -> str:
+    found = ((pattern.search(error), words) for pattern, words in meanings)
+    return next((words.format(*match.groups()) for match, words in found if match), "")

@@ -33,7 +33,7 @@ FAULTY = [
     (["if scan.ranges[0] != float('nan'):", "    pass"], "nothing is equal to nan"),
     (["if scan.ranges[0] is not math.inf:", "    pass"], "asks for the same object"),
     (["self.get_logger().info('%d rays', 3)"], "takes one text"),
-    (["log.info('text')"], "Python's own log"),
+    (["log.info('text')"], "Python's logging shows nothing"),
     (["time.sleep(0.5)"], "while it sleeps"),
     (["if any(math.isinf(r) for r in scan.ranges):", "    return"], "leave out the ray"),
     (["if math.inf in scan.ranges:", "    return"], "leave out the ray"),
@@ -67,7 +67,7 @@ RIGHT = [
     ["n = 0", "for r in scan.ranges:", "    if scan.range_min < r:", "        n += 1"],
     ["total = 0.0", "for r in scan.ranges:", "    total = total + r"],
     ["v = [r for i, r in enumerate(scan.ranges) if scan.range_min < r]"],
-    ["self.get_logger().info('text', throttle_duration_sec=1.0)", "log.info('%d', 1)"],
+    ["self.get_logger().info('text', throttle_duration_sec=1.0)"],
 ]
 
 

@@ -30,10 +30,6 @@ MEANINGS = (
         "bits for each pixel, a depth image of 32FC1 one float32 (np.frombuffer(data, dtype=np.float32))",
     ),
     (
-        re.compile(r"IndexError: index (\d+) is out of bounds for axis (\d) with size (\d+)"),
-        "axis {1} has the places 0 to size - 1; an image or a map is indexed [row, column], that is [y, x]",
-    ),
-    (
         re.compile(r"ValueError: operands could not be broadcast together with shapes (\([\d, ]*\)) (\([\d, ]*\))"),
         "two arrays of the shapes {0} and {1} do not fit together number by number",
     ),

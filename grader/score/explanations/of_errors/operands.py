@@ -136,7 +136,10 @@ def lists(error: str, code: str) -> str:
     if re.search(r"IndexError: (?:array|list|tuple|string) (?:assignment )?index out of range", error):
         return "there is no element of that number: the first is 0, the last is len(...) - 1"
     if match := re.search(r"IndexError: index (-?\d+) is out of bounds for axis (\d+) with size (\d+)", error):
-        return f"the index is {match[1]}, but there are {match[3]} elements, 0 to {int(match[3]) - 1}"
+        return (
+            f"the index is {match[1]}, but there are {match[3]} elements along axis {match[2]}, 0 to "
+            f"{int(match[3]) - 1}; an image or a map is indexed [row, column], that is [y, x]"
+        )
     if match := re.search(r"'array\.array' object has no attribute '(\w+)'", error):
         name = match[1]
         if name in ("length", "size", "shape", "len", "count_", "getLength"):
