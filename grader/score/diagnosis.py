@@ -84,9 +84,11 @@ def diagnose(recording: Recording, looks: Iterable[Look]) -> str:
 def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -> str:
     """Return one sentence about a float field that was assigned a whole number or a text; empty if there is none."""
     for place in recording.facts().get("whole_numbers", []):
+        parameter = "get_parameter" in place["value"] or "declare_parameter" in place["value"]
+        right = "its .value is the number" if parameter else "write a number with a point, or float(...)"
         return shown(
             f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float, but the "
-            "field holds one; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
+            f"field holds one; rclpy does not convert it and sends 0: {right}."
         )
     return ""
 

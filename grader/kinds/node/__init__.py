@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.message_fields import message_fields
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
@@ -68,7 +69,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
-        "slips": slips(content, exercise.duration),
+        "slips": slips(content, exercise.duration, message_fields(heard)),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
         "whole_numbers": whole_numbers(content, float_fields(heard)),
