@@ -41,9 +41,9 @@ def unknown_fields(tree: ast.AST, fields: Mapping[str, list[str]]) -> Iterator[P
         if not isinstance(node, ast.Call):
             continue
         kind = ast.unparse(node.func).rpartition(".")[2]
-        known = fields.get(kind)
-        for word in node.keywords if known is not None and kind not in own else ():
-            if word.arg is None or word.arg in known or not known:
+        known = [] if kind in own else fields.get(kind, [])
+        for word in node.keywords if known else ():
+            if word.arg is None or word.arg in known:
                 continue
             near = nearest_name(word.arg, known) or (known[0] if len(known) == 1 else "")
             there = f"it is called {near}" if near else f"it has {', '.join(known)}"
