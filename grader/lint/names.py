@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.lint.syntax import assignments
+
 Place = tuple[int, str]
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -21,8 +23,7 @@ def _attributes(node: ast.AST, context: type[ast.expr_context]) -> dict[str, int
     """Return the attributes of self that are read or set within a node, with the line of the first."""
     found: dict[str, int] = {}
     for each in ast.walk(node):
-        own = isinstance(each, ast.Attribute) and isinstance(each.value, ast.Name) and each.value.id == "self"
-        if own and isinstance(each.ctx, context):
+        if isinstance(each, ast.Attribute) and isinstance(each.ctx, context) and ast.unparse(each.value) == "self":
             found.setdefault(each.attr, each.lineno)
     return found
 
@@ -37,8 +38,7 @@ def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
             }
             names = [node for node in ast.walk(method) if isinstance(node, ast.Name)]
             loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)} | kept
-            for node in ast.walk(method):
-                target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
+            for target, node in assignments(method):
                 if not isinstance(target, ast.Name) or target.id not in read:
                     continue
                 lost = target.id in never_set - kept and f"self.{target.id}" not in ast.unparse(node.value)
@@ -98,15 +98,11 @@ def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
     """Find a counter or flag that is set on the class and read on the object, or the other way round."""
     for owner in _classes(tree):
         objects = _attributes(owner, ast.Store)
-        for node in ast.walk(owner):
-            target = node.target if isinstance(node, ast.AugAssign) else None
-            if isinstance(node, ast.Assign) and len(node.targets) == 1:
-                target = node.targets[0]
-            if not isinstance(target, ast.Attribute) or not isinstance(target.value, ast.Name):
-                continue
-            if target.value.id == owner.name and target.attr in objects:
+        sums = [node.target for node in ast.walk(owner) if isinstance(node, ast.AugAssign)]
+        for target in [*sums, *(target for target, _ in assignments(owner))]:
+            if isinstance(target, ast.Attribute) and ast.unparse(target.value) == owner.name and target.attr in objects:
                 yield (
-                    node.lineno,
+                    target.lineno,
                     f"{ast.unparse(target)} is a variable of the class; self.{target.attr}, set in line "
                     f"{objects[target.attr]}, is another one",
                 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.lint.syntax import assignments
 from gz_course.grader.lint.unreached import blocks, called
 
 Place = tuple[int, str]
@@ -83,11 +84,10 @@ def never_sent(tree: ast.AST) -> Iterator[Place]:
             if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)
             for inner in ast.walk(node)
         }
-        for node in ast.walk(function):
-            target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
-            if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):  # type: ignore[union-attr]
+        for target, node in assignments(function):
+            if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
                 continue
-            kind = ast.unparse(node.value.func).rpartition(".")[2]  # type: ignore[union-attr]
+            kind = ast.unparse(node.value.func).rpartition(".")[2]
             if kind in MESSAGES and all(id(each) in bases for each in loads if each.id == target.id):
                 yield (
                     node.lineno,
@@ -178,10 +178,13 @@ def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         if id(node) in inits:
             continue
-        name = ""
-        nothing = isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant) and not node.value.value
-        if isinstance(node, ast.Delete) or nothing:
-            name = ast.unparse(node.targets[0])
+        lost = isinstance(node, ast.Assign) and ast.unparse(node.value) in ("None", "False")
+        if isinstance(node, ast.Assign | ast.Delete) and (lost or isinstance(node, ast.Delete)):
+            if (name := ast.unparse(node.targets[0])) in timers:
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)} takes the name away, and the timer goes on: {name}.cancel() ends it",
+                )
         elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
             owner, _, method = ast.unparse(node.value.func).rpartition(".")
             if owner in timers and method == "reset":
@@ -191,11 +194,6 @@ def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
                 )
             if owner in timers and method in ("is_canceled", "is_ready"):
                 yield node.lineno, f"{owner}.{method}() only asks: {owner}.cancel() ends the timer"
-        if name in timers:
-            yield (
-                node.lineno,
-                f"{ast.unparse(node)} takes the name away, and the timer goes on: {name}.cancel() ends it",
-            )
 
 
 LOOKS = (

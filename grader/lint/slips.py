@@ -7,7 +7,8 @@ lost points.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 
 from gz_course.grader.lint import (
     action_servers,
@@ -26,9 +27,11 @@ from gz_course.grader.lint import (
     waiting,
 )
 from gz_course.grader.lint.constants import named_numbers, number
+from gz_course.grader.lint.message_fields import unknown_fields
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
+MOST_NODES = 10_000  # of the syntax tree; the longest solution has a sixth of that
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
@@ -37,16 +40,21 @@ MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 Place = tuple[int, str]
 
 
-def slips(content: bytes, duration: float = LONGEST_PERIOD) -> Places:
+def slips(
+    content: bytes, duration: float = LONGEST_PERIOD, fields: Mapping[str, list[str]] = MappingProxyType({})
+) -> Places:
     """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python.
 
-    `duration` [s] is the length of the run.
+    `duration` [s] is the length of the run, `fields` are those of the messages of the exercise, by class. A file
+    that is far longer than any solution has none: the looks compare its statements with each other.
     """
-    return places_in(content, lambda tree: _places(tree, duration))
+    return places_in(content, lambda tree: _places(tree, duration, fields))
 
 
-def _places(tree: ast.Module, duration: float) -> Places:
-    found = [*periods(tree, duration)]
+def _places(tree: ast.Module, duration: float, fields: Mapping[str, list[str]]) -> Places:
+    if sum(1 for _ in ast.walk(tree)) > MOST_NODES:
+        return []
+    found = [*periods(tree, duration), *unknown_fields(tree, fields)]
     for room in ROOMS:
         found += [place for look in room for place in look(tree)]
     return [{"line": line, "said": said} for line, said in found[:MOST]]

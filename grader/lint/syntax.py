@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 Places = list[dict[str, Any]]
+
+
+def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
+    """Yield each assignment to a single target, after the target."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and len(node.targets) == 1:
+            yield node.targets[0], node
 
 
 def places_in(content: bytes, look: Callable[[ast.Module], Places]) -> Places:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
@@ -16,6 +17,7 @@ UNITS = {1e-9: "nanoseconds", 1e-6: "microseconds", 1e-3: "milliseconds", 1.0: "
 SHORTEST = 0.02  # [s] a shorter time, written in another unit than seconds, is compared with by mistake
 LONGEST = 200.0  # [s] so is a longer one: no run takes that long
 WALL = frozenset({"time.time", "time.monotonic", "time.perf_counter"})
+START = re.compile(r"(?:start|begin|first|t0|t_0)(?:_?time|ed|_?at)?$")
 STEPS = 8  # names followed at most
 
 
@@ -66,6 +68,28 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
         else:
             if abs(seconds) > LONGEST or 1e-9 < abs(seconds) < 1e-6:
                 yield node.lineno, f"{ast.unparse(node)} lasts {seconds:g} s: 5 s are Duration(seconds=5)"
+
+
+def negative_times(tree: ast.AST) -> Iterator[Place]:
+    """Find `start - now`, which is negative and so always less than any limit."""
+    values = _values(tree)
+    inside_abs = {
+        id(inner)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in ("abs", "fabs")
+        for inner in ast.walk(node)
+    }
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub) or id(node) in inside_abs:
+            continue
+        left, right = ast.unparse(node.left), ast.unparse(node.right)
+        now = right.endswith(".now()") or [ast.unparse(each)[-6:] for each in values.get(right, [])] == [".now()"]
+        if START.search(left) and now:
+            yield (
+                node.lineno,
+                f"{left} - {right} is negative, because {right} is the later one: the time that has passed is "
+                f"{right} - {left}",
+            )
 
 
 def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
@@ -129,4 +153,4 @@ def _common(units: list[float | None]) -> float | None:
     return first if first is not None and all(u is not None and math.isclose(u, first) for u in units) else None
 
 
-LOOKS = (wrong_units,)
+LOOKS = (wrong_units, negative_times)

@@ -102,10 +102,14 @@ def _constants(tree: ast.Module) -> set[str]:
 
 
 def _whole(node: ast.expr, known: set[str]) -> bool:
-    """Return whether the value, or one branch of it, is certainly a whole number other than zero, or a text."""
+    """Return whether the value, or one branch of it, is certainly neither a float nor a zero."""
     match node:
         case ast.Constant(value=value):
-            return (type(value) is int and value != 0) or isinstance(value, str)
+            return (type(value) is int and value != 0) or isinstance(value, str) or value is None or value is True
+        case ast.List() | ast.Tuple() | ast.Set() | ast.Dict():
+            return True
+        case ast.Call(func=ast.Attribute(attr="get_parameter" | "declare_parameter")):
+            return True
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
             return _whole(operand, known)
         case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult(), left=left, right=right):

@@ -86,9 +86,11 @@ def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -
     """Return one sentence about a float field that was assigned what is no float; empty if there is none."""
     for place in recording.facts().get("whole_numbers", []):
         kind = f" (it is an {place['type']} of NumPy)" if place.get("type") else ""
+        parameter = "get_parameter" in place["value"] or "declare_parameter" in place["value"]
+        right = "its .value is the number" if parameter else "write a number with a point, or float(...)"
         return shown(
             f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float{kind}, but the "
-            "field holds one; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
+            f"field holds one; rclpy does not convert it and sends 0: {right}."
         )
     return ""
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.message_fields import message_fields
 from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
@@ -74,7 +75,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "conditions": conditions(content),
         "origins": origins(content),
         "lookups": lookups(content),
-        "slips": slips(content, exercise.duration),
+        "slips": slips(content, exercise.duration, message_fields(heard)),
         "suspects": suspects(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),

@@ -73,7 +73,7 @@ def too_many(times: np.ndarray, ended: float) -> str:
     if np.ptp(gaps) > 0.05 * gaps[0]:
         return ""
     if times[-1] + gaps[0] > ended:
-        return f"a message came every {gaps[0]:.2f} s until the end: a timer goes on firing"
+        return f"a message came every {gaps[0]:.2f} s until the end: the callback that publishes goes on being called"
     return f"the messages came {gaps[0]:.2f} s apart and ceased: two timers, or a count, send them"
 
 

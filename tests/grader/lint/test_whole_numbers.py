@@ -6,6 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
+from gz_course.grader.lint.message_fields import message_fields
+from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 
 FIELDS = {"Twist": {"linear.x", "angular.z"}, "Vector3": {"x", "y", "z"}, "Float32": {"data"}}
@@ -69,3 +71,20 @@ def test_what_is_no_such_place(text):
 @given(st.binary(max_size=200))
 def test_no_content_breaks_it(content):
     assert whole_numbers(content, FIELDS) == []
+
+
+@pytest.mark.parametrize("value", ["None", "True", "[0.5]", "(0.5,)", "self.get_parameter('speed')"])
+def test_what_is_no_number_at_all_is_found(value):
+    found = whole_numbers(f"command = Twist()\ncommand.linear.x = {value}\n".encode(), FIELDS)
+    assert [place["line"] for place in found] == [2]
+
+
+def test_a_field_that_a_message_does_not_have():
+    fields = message_fields(["geometry_msgs/msg/Twist", "std_msgs/msg/String", "no/msg/Such"])
+    text = b"a = String(text='hi')\nb = Twist(linear_x=0.5)\nc = Twist(linear=Vector3(x=1.0))\nd = String(data='hi')\n"
+    assert [place["line"] for place in slips(text, 8.0, fields)] == [1, 2]
+    assert "a String has no field text: it is called data" in slips(text, 8.0, fields)[0]["said"]
+
+
+def test_a_file_far_longer_than_a_solution_is_not_looked_through():
+    assert slips(b"x == 1\n" * 10) and slips(b"x == 1\n" * 4000) == []

@@ -62,6 +62,7 @@ WRONG = {
     "the unit of the left side is 10 s, and 5 of them": ("/ 1e9\n", "/ 1e10\n"),
     "a time is hardly ever exactly this number": ("elapsed < SECONDS", "elapsed == SECONDS"),
     "Duration(nanoseconds=5) lasts 5e-09 s": ("elapsed < SECONDS", "now - self.start < Duration(nanoseconds=5)"),
+    "self.start - now is negative": ("now - self.start", "self.start - now"),
     # slips.py: periods
     "create_timer(PERIOD, which is 100, ...)": ("PERIOD = 0.1", "PERIOD = 100"),
     "10 times per second are create_timer(0.1, ...)": ("PERIOD = 0.1", "PERIOD = 10"),
@@ -153,6 +154,7 @@ HARMLESS = [
     ("elapsed < SECONDS", "(now - self.start).nanoseconds < 5 * 10**9"),
     ("elapsed < SECONDS", "now - self.start < Duration(seconds=5)"),
     ("elapsed < SECONDS", "elapsed > 0 and elapsed < SECONDS"),
+    ("elapsed = (now - self.start)", "elapsed = abs(self.start - now)"),
     ("self.tick)", "lambda: self.tick())"),
     ("self.tick)", "self.later(1))"),
     ("    rclpy.spin(node)", "    while rclpy.ok():\n        rclpy.spin_once(node)"),

@@ -125,9 +125,10 @@ def never_ends(drive: Drive) -> str:
     if turning.any() and not turning[-1] and len(turning) - np.flatnonzero(turning)[-1] > 3:
         return ""  # `drives_on_straight` says it
     return (
-        f"{len(drive.times)} commands in a row drive the robot and not one stops it: the time your node reckons with "
-        f"never reaches {drive.seconds:g} s (a count of ticks, nanoseconds without the seconds, a start that is set "
-        "anew in every callback), or it never compares"
+        f"{len(drive.times)} commands in a row drive the robot and not one stops it: what your node compares does not "
+        f"reach its limit in {drive.ended:.0f} s (a count of ticks, nanoseconds without the seconds, a start that is "
+        f"set anew in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it never "
+        "compares"
     )
 
 
