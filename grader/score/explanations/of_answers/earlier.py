@@ -99,7 +99,7 @@ def change(asked: Asked) -> np.ndarray:
     return asked.truth - _before(asked.truth, 1)
 
 
-@predicts("the answer before once more, not a new one", rank=2)
+@predicts("the answer before once more, not a new one", rank=LAST)
 def same_again(asked: Asked) -> np.ndarray:
     """Return the answers before, if they are repeated where the right value has changed."""
     known = np.flatnonzero(asked.answered)
