@@ -48,7 +48,7 @@ def average_so_far(asked: Asked) -> np.ndarray:
 def average_of_all_ranges(asked: Asked) -> np.ndarray:
     if asked.scans is None:
         return asked.unknown
-    valid = asked.scans.valid()
+    valid = asked.scans.valid
     return np.cumsum([v.sum() for v in valid]) / np.cumsum([len(v) for v in valid])
 
 

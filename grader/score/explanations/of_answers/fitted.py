@@ -118,7 +118,7 @@ def another_bound(asked: Asked) -> Named:
     if asked.scans is None:
         return Named("", asked.unknown)
     limits = np.concatenate([np.arange(0.05, 2.0, 0.05), np.arange(2.0, asked.scans.high.max(), 0.5)])
-    tables = np.array([_within_and_beyond(asked.statistic, valid, limits) for valid in asked.scans.valid()])
+    tables = np.array([_within_and_beyond(asked.statistic, valid, limits) for valid in asked.scans.valid])
     candidates = []
     for i, side in enumerate(("within", "beyond")):
         candidates += [Named(words.format(side, limit), tables[:, i, k]) for k, limit in enumerate(limits)]
