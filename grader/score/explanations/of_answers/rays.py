@@ -88,7 +88,7 @@ def _below(limit: float) -> Choice:
     return lambda row, low, high: row[row < limit]
 
 
-@predicts("those with 0 in place of the ranges that are not valid")
+@predicts("those with 0 in place of the ranges that are not valid", only=LENGTHS)
 def zero_for_invalid(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: np.where((row > low) & (row < high), row, 0.0))
 
