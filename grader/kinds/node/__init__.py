@@ -13,6 +13,7 @@ from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.lint.message_fields import message_fields
 from gz_course.grader.lint.origins import conditions, origins
+from gz_course.grader.lint.sequences import silent_log
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
@@ -75,6 +76,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "conditions": conditions(content),
         "origins": origins(content),
         "lookups": lookups(content),
+        "silent_log": silent_log(content),
         "slips": slips(content, exercise.duration, message_fields(heard)),
         "suspects": suspects(content),
         "time_reckoning": time_reckoning(content),

@@ -19,9 +19,9 @@ from __future__ import annotations
 import dataclasses
 import warnings
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from typing import TypeVar
 
 import numpy as np
@@ -53,17 +53,26 @@ class Scans:
 
     def each(self, value: Callable[[np.ndarray, float, float], float]) -> np.ndarray:
         """Return `value(ranges, low, high)` for every scan; NaN where it is not defined."""
-        found = np.full(len(self.rows), np.nan)
-        for i, row in enumerate(self.rows):
-            try:
-                with np.errstate(all="ignore"):
-                    found[i] = value(row, float(self.low[i]), float(self.high[i]))
-            except (ValueError, IndexError, ZeroDivisionError):
-                continue
-        return found
+        return _each(value, zip(self.rows, self.low.tolist(), self.high.tolist(), strict=True), len(self.rows))
 
+    def each_valid(self, value: Callable[[np.ndarray], float]) -> np.ndarray:
+        """Return `value(valid ranges)` for every scan; NaN where it is not defined."""
+        return _each(value, zip(self.valid, strict=True), len(self.rows))
+
+    @cached_property
     def valid(self) -> list[np.ndarray]:
         return [row[(row > low) & (row < high)] for row, low, high in zip(self.rows, self.low, self.high, strict=True)]
+
+
+def _each(value: Callable[..., float], scans: Iterable[tuple[object, ...]], number: int) -> np.ndarray:
+    found = np.full(number, np.nan)
+    with np.errstate(all="ignore"):
+        for i, scan in enumerate(scans):
+            try:
+                found[i] = value(*scan)
+            except (ValueError, IndexError, ZeroDivisionError):
+                continue
+    return found
 
 
 @dataclass(frozen=True)
@@ -105,7 +114,7 @@ class Asked:
         return self.each(lambda row, low, high: float(value(row)))
 
     def of_valid(self, value: Callable[[np.ndarray], float]) -> np.ndarray:
-        return self.each(lambda row, low, high: float(value(row[(row > low) & (row < high)])))
+        return self.unknown if self.scans is None else self.scans.each_valid(value)
 
     def over(self, choice: Callable[[np.ndarray, float, float], np.ndarray]) -> np.ndarray:
         """Return the statistic that is asked for over the chosen ranges of each scan."""

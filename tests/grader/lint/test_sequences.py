@@ -2,6 +2,7 @@
 
 import pytest
 
+from gz_course.grader.lint.sequences import silent_log
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.whole_numbers import whole_numbers
 
@@ -33,13 +34,11 @@ FAULTY = [
     (["if scan.ranges[0] != float('nan'):", "    pass"], "nothing is equal to nan"),
     (["if scan.ranges[0] is not math.inf:", "    pass"], "asks for the same object"),
     (["self.get_logger().info('%d rays', 3)"], "takes one text"),
-    (["log.info('text')"], "Python's logging shows nothing"),
     (["time.sleep(0.5)"], "while it sleeps"),
     (["if any(math.isinf(r) for r in scan.ranges):", "    return"], "leave out the ray"),
     (["if math.inf in scan.ranges:", "    return"], "leave out the ray"),
     (["v = [r for r in scan.ranges]", "for r in v:", "    self.pub.publish(r)"], "belongs behind the loop"),
     (["def add(x, a=[]):", "    a.append(x)"], "stays in it from call to call"),
-    (["self.get_logger().debug('text')"], "logs nothing at a logger's usual level"),
     (["least = 0.0", "for r in scan.ranges:", "    if r < least:", "        least = r"], "least begins at 0"),
     (["least = 0", "for r in scan.ranges:", "    if 0.1 < r and least > r:", "        least = r"], "it stays 0"),
     (["least = 0.0", "for r in scan.ranges:", "    least = min(least, r)"], "begins at math.inf"),
@@ -99,3 +98,17 @@ def test_what_is_right_has_no_slip(lines):
 )
 def test_numbers_of_float32_in_messages_are_found(lines, found):
     assert [place["value"] for place in whole_numbers(callback(*lines), {"Float32": {"data"}})] == found
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        (["log.info('text')"], "Python's own log"),
+        (["self.get_logger().debug('text')"], "silent at a logger's usual level"),
+        (["self.get_logger().debug('text')", "self.get_logger().info('text')"], ""),
+        (["pass"], ""),
+    ],
+)
+def test_a_log_that_nobody_gets_is_found(lines, words):
+    found = silent_log(callback(*lines))
+    assert bool(found) == bool(words) and all(words in place["said"] for place in found)

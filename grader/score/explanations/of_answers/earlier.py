@@ -48,7 +48,7 @@ def average_so_far(asked: Asked) -> np.ndarray:
 def average_of_all_ranges(asked: Asked) -> np.ndarray:
     if asked.scans is None:
         return asked.unknown
-    valid = asked.scans.valid()
+    valid = asked.scans.valid
     return np.cumsum([v.sum() for v in valid]) / np.cumsum([len(v) for v in valid])
 
 
@@ -99,7 +99,7 @@ def change(asked: Asked) -> np.ndarray:
     return asked.truth - _before(asked.truth, 1)
 
 
-@predicts("the answer before once more, not a new one", rank=2)
+@predicts("the answer before once more, not a new one", rank=LAST)
 def same_again(asked: Asked) -> np.ndarray:
     """Return the answers before, if they are repeated where the right value has changed."""
     known = np.flatnonzero(asked.answered)

@@ -118,7 +118,7 @@ def another_bound(asked: Asked) -> Named:
     if asked.scans is None:
         return Named("", asked.unknown)
     limits = np.concatenate([np.arange(0.05, 2.0, 0.05), np.arange(2.0, asked.scans.high.max(), 0.5)])
-    tables = np.array([_within_and_beyond(asked.statistic, valid, limits) for valid in asked.scans.valid()])
+    tables = np.array([_within_and_beyond(asked.statistic, valid, limits) for valid in asked.scans.valid])
     candidates = []
     for i, side in enumerate(("within", "beyond")):
         candidates += [Named(words.format(side, limit), tables[:, i, k]) for k, limit in enumerate(limits)]
@@ -214,11 +214,25 @@ def sector(asked: Asked) -> Named:
     for number in known[np.linspace(0, len(known) - 1, min(SAMPLE, len(known))).astype(int)]:
         found = _of_sectors(asked, int(number))
         met += np.abs(found - asked.given[number]) <= asked.tolerance
-    # of several that fit as well, the widest
-    first, last = max(zip(*np.nonzero(met == met.max()), strict=True), key=lambda place: place[1])
+    first, last = _usual(met == met.max())
     chosen = np.arange(first, first + last + 1) % rays
-    words = f"those of rays {first} to {chosen[-1]} only; a scan has {rays}, from 0 to {rays - 1}"
+    which = f"rays {first} to {chosen[-1]}"
+    only = f"{which} only" if np.sum(met == met.max()) == 1 else f"a part of the rays only, such as {which}"
+    words = f"those of {only}; a scan has {rays}, from 0 to {rays - 1}"
     return Named(words, _of_chosen(asked, chosen))
+
+
+def _usual(fits: np.ndarray) -> tuple[int, int]:
+    """Return the first ray, and the width less 1, of a sector that fits: a round one about an axis, or the widest."""
+    rays = len(fits)
+    for degrees in (180, 120, 90, 60, 45, 40, 30, 20, 10):
+        width = round(rays * degrees / 360)
+        for middle in (0, rays // 2, rays // 4, 3 * rays // 4):
+            first = (middle - width // 2) % rays
+            if 2 < width < rays and fits[first, width - 1]:
+                return first, width - 1
+    first, last = max(zip(*np.nonzero(fits), strict=True), key=lambda place: place[1])
+    return int(first), int(last)
 
 
 def _of_sectors(asked: Asked, number: int) -> np.ndarray:

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import LENGTHS, MEAN, MINIMUM, Asked, Named, predicts
+from gz_course.grader.score.explanations.answers import LAST, LENGTHS, MEAN, MINIMUM, Asked, Named, predicts
 
 KEPT = (0.5, 0.9, 0.8, 0.7, 0.95)  # shares of the old value
 
@@ -63,7 +63,7 @@ def _distinct(valid: np.ndarray, digits: int) -> float:
     return float(np.unique(np.round(valid, digits)).mean())
 
 
-@predicts("the smallest of the averages of a few sectors, not of the ranges themselves", only=(MINIMUM,), rank=2)
+@predicts("the smallest of the averages of a few sectors, not of the ranges themselves", only=(MINIMUM,), rank=LAST)
 def nearest_sector(asked: Asked) -> np.ndarray:
     def smallest(parts: int) -> Callable[[np.ndarray, float, float], float]:
         def value(row: np.ndarray, low: float, high: float) -> float:

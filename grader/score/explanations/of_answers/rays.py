@@ -88,7 +88,7 @@ def _below(limit: float) -> Choice:
     return lambda row, low, high: row[row < limit]
 
 
-@predicts("those with 0 in place of the ranges that are not valid")
+@predicts("those with 0 in place of the ranges that are not valid", only=LENGTHS)
 def zero_for_invalid(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: np.where((row > low) & (row < high), row, 0.0))
 
@@ -137,12 +137,11 @@ def groups(asked: Asked) -> np.ndarray:
 
 @predicts("those of the rays ahead only, not of those all around", rank=2)
 def ahead(asked: Asked) -> Named:
-    """Return the answers of the sector, of the usual ones, that fits best."""
+    """Return the answers of the sector, of the usual ones, that fits best; several may fit as well."""
     if asked.scans is None or asked.scans.angle_max[0] - asked.scans.angle_min[0] < np.pi:
         return Named("", asked.unknown)
     sector = (asked.scans.angle_max[0] - asked.scans.angle_min[0]) / 2
-    best, most = Named("", asked.unknown), -1
-    words = "those of the rays within {} degrees straight ahead only, not of those all around"
+    found: list[tuple[int, int, np.ndarray]] = []
     for degrees in (5, 10, 15, 20, 30, 45, 60, 90):
         for last in (0, 1):  # a slice leaves its last ray out
 
@@ -152,16 +151,21 @@ def ahead(asked: Asked) -> Named:
                 middle, half = len(row) // 2, round(len(row) / 2 * np.radians(degrees) / sector)
                 return _valid(row[middle - half : middle + half + last], low, high)
 
-            found = asked.over(in_sector)
-            met = asked.met(found)
-            best, most = (Named(words.format(degrees), found), met) if met > most else (best, most)
-    return best
+            answers = asked.over(in_sector)
+            found.append((asked.met(answers), degrees, answers))
+    most = max(met for met, _, _ in found)
+    widths = sorted({degrees for met, degrees, _ in found if met == most})
+    width = f"{widths[0]}" if len(widths) == 1 else f"{widths[0]} to {widths[-1]}"
+    words = f"those of the rays ahead only, within {width} degrees of straight ahead, not of those all around"
+    return Named(words, next(answers for met, _, answers in found if met == most))
 
 
 @predicts("those of a part of the rays only, not of those all around", rank=2)
-def part_of_the_circle(asked: Asked) -> np.ndarray:
-    eighths = [(begin, end) for begin in range(8) for end in range(begin + 1, 9) if end - begin < 8]
-    return max((asked.over(_slice(begin, end)) for begin, end in eighths), key=asked.met)
+def part_of_the_circle(asked: Asked) -> Named:
+    words = "those of a part of the rays only, such as {:.0%} of them from {:.0%} on, where the first ray is 0%"
+    eighths = [(i, i + width) for width in range(7, 0, -1) for i in range(9 - width)]
+    found = [Named(words.format((end - i) / 8, i / 8), asked.over(_slice(i, end))) for i, end in eighths]
+    return max(found, key=lambda each: asked.met(each.answers))
 
 
 def _slice(begin: int, end: int) -> Choice:

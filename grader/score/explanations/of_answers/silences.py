@@ -46,7 +46,7 @@ def several_answers(asked: Asked) -> str:
     often = f"about {np.median(number):.0f} times"
     for words, count in (("once for every valid ray", len), ("once for every ray", None)):
         rays = asked.of_rows(len) if count is None else asked.of_valid(count)
-        if np.mean(np.abs(rays[asked.answered] - number) <= 1) >= 0.9:
+        if np.mean(np.abs(rays[asked.answered] - number) <= 1) >= 0.9 and np.median(number) > 5:
             often = words
     only = "only the last answer is right: " if right.mean() >= 0.9 else ""
     return f"your node answers each scan {often}; {only}one answer belongs behind the loop over the rays, not into it"

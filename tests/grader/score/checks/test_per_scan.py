@@ -139,3 +139,22 @@ def test_lines_of_another_form_are_quoted_and_not_taken_for_silence(scanned):
     assert not finding.passed
     assert finding.measured.endswith("no line of the log has the form that is asked for; one was 'avg = 1.50 metres'")
     assert "; nothing was logged: " in per_scan(scanned(), LOG).measured
+
+
+def test_a_line_of_another_form_is_compared_with_an_example(scanned):
+    finding = per_scan(scanned(lines=logged("avg: 1.50m")), LOG | {"line": "avg=4.56m"})
+    assert finding.explanation.startswith("behind 'avg' the line has ': N.NNm', where '=N.NNm' is asked for")
+    assert per_scan(scanned(lines=logged("avg=1.50m")), LOG | {"line": "avg=4.56m"}).explanation == ""
+
+
+def test_several_answers_to_a_scan_are_explained_as_such(scanned):
+    several = [(t + 0.01 * n, value) for t in TIMES for n, value in enumerate((2.0, 1.5, 1.0), start=1)]
+    finding = per_scan(scanned(signals={"topics/nearest/data": several}), TOPIC)
+    assert finding.explanation.startswith("your node answers each scan about 3 times; only the last answer is right")
+
+
+def test_a_log_that_nobody_gets_is_explained_by_the_file(record):
+    signals = {f"topics/lidar/scan/range_{n}": [(t, v) for t in TIMES] for n, v in (("min", 0.2), ("max", 10.0))}
+    arrays = {"topics/lidar/scan/ranges": [(t, RANGES) for t in TIMES]}
+    recording = record(signals, arrays=arrays, facts={"silent_log": [{"line": 7, "said": "debug() is silent"}]})
+    assert per_scan(recording, LOG).explanation == "line 7: debug() is silent"

@@ -197,7 +197,9 @@ MINIMA = {
     "the last ray": lambda scan, kept: scan.ranges[-1],
     "the middle ray": lambda scan, kept: scan.ranges[len(scan.ranges) // 2],
     "the first half of the rays": lambda scan, kept: min(valid(Scan(scan.ranges[:90]))),
-    "those of the rays within 15 degrees straight ahead only": lambda scan, kept: min(valid(Scan(scan.ranges[82:98]))),
+    "those of the rays ahead only, within 15 degrees of straight ahead": lambda scan, kept: min(
+        valid(Scan(scan.ranges[82:98]))
+    ),
     "all rays, the invalid ones": lambda scan, kept: min(scan.ranges),
     "range_min was not asked about": lambda scan, kept: min(r for r in scan.ranges if r < scan.range_max),
     "with 0 in place": lambda scan, kept: min(r if 0.12 < r < 10 else 0.0 for r in scan.ranges),
@@ -214,7 +216,9 @@ MINIMA = {
     "less range_min": lambda scan, kept: min(valid(scan)) - scan.range_min,
     "with the same number added": lambda scan, kept: min(valid(scan)) + 0.17,
     "times the same factor": lambda scan, kept: min(valid(scan)) * 0.9,
-    "a part of the rays": lambda scan, kept: min(valid(Scan(scan.ranges[90 // 2 : 90]))),
+    "those of a part of the rays only, such as 25% of them from 25% on": lambda scan, kept: min(
+        valid(Scan(scan.ranges[90 // 2 : 90]))
+    ),
     "beyond 1 m, another bound": lambda scan, kept: min(r for r in scan.ranges if 1.0 < r < scan.range_max),
     "the reciprocal": lambda scan, kept: 1 / min(valid(scan)),
     "answered every second scan only": every(2),
@@ -338,8 +342,8 @@ FITTED = {
     },
     "mean": {
         "the root mean square": lambda scan, kept: math.sqrt(statistics.fmean(r * r for r in valid(scan))),
-        "those of rays 33 to 76 only": lambda scan, kept: statistics.fmean(valid(Scan(scan.ranges[33:77]))),
-        "those of rays 150 to 29 only": lambda scan, kept: statistics.fmean(
+        "such as rays 33 to 76; a scan has 180": lambda scan, kept: statistics.fmean(valid(Scan(scan.ranges[33:77]))),
+        "such as rays 150 to 29; a scan has 180": lambda scan, kept: statistics.fmean(
             valid(Scan(scan.ranges[150:] + scan.ranges[:30]))
         ),
         "the average, over all scans so far, of the smallest valid range": running_average,
@@ -354,7 +358,7 @@ FITTED = {
         "below 5 m, -inf included": lambda scan, kept: sum(r < 5.0 for r in scan.ranges),
         "groups of valid rays": lambda scan, kept: sum(1 for group in groups(scan) if group),
         "the smallest, over all scans so far, of the largest valid range": least_of_largest,
-        "those of rays": lambda scan, kept: len(valid(Scan(scan.ranges[13:77]))),
+        "those of a part of the rays only": lambda scan, kept: len(valid(Scan(scan.ranges[13:77]))),
         "one ray in 4 only": lambda scan, kept: len(valid(Scan(scan.ranges[::4]))),
     },
 }
