@@ -163,6 +163,22 @@ def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
         )
 
 
+def glued_parts(file: LaunchFile) -> Iterator[Place]:
+    """Find options and a value in gz_args that are joined without a space."""
+    for call in file.calls("IncludeLaunchDescription"):
+        given = file.value(argument(call, "launch_arguments", 1))
+        lists = [each for each in ast.walk(given) if isinstance(each, ast.List)] if given is not None else []
+        for parts in lists:
+            for one, other in zip(parts.elts, parts.elts[1:], strict=False):
+                said = text(one)
+                if said.startswith("-") and not said.endswith(" ") and not text(other).startswith((" ", "-")):
+                    yield (
+                        one.lineno,
+                        f"a space is missing at the end of {said!r}: launch joins the parts of a list without spaces, "
+                        "so the value behind it becomes a part of the option",
+                    )
+
+
 def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
     """Find gz_sim.launch.py included without the one argument that it reads; it inherits those of its includer."""
     if any(text(each) == "gz_args" for each in file.nodes):
@@ -185,6 +201,6 @@ def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
 
 
 LOOKS = (
-    glued_words, simulator_arguments, parameters_on_the_command_line, bridge_parameters, sim_time_for_others,
-    arguments_for_nobody, detached, parameters_for_what_follows,
+    glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
+    sim_time_for_others, arguments_for_nobody, detached, parameters_for_what_follows,
 )  # fmt: skip

@@ -135,6 +135,8 @@ def test_a_mistake_is_named(old, new, words):
     [
         ("launch_arguments={'gz_args': ['-r -s ', world]}.items()", ""),
         ("launch_arguments=[('gz_args', world)]", ""),
+        ("launch_arguments={'gz_args': ['-r -s', world]}.items()", "a space is missing at the end of '-r -s'"),
+        ("launch_arguments={'gz_args': ['-r -s', ' ', world]}.items()", ""),
         ("launch_arguments={'world': world, 'paused': 'true'}.items()", "has no argument called world"),
         ("", "gets no gz_args"),
     ],
