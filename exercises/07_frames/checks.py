@@ -22,33 +22,16 @@ TURNS = 0.5  # [rad/s] faster is turning
 STEADY = 0.2  # [rad/s] change of the turning rate within `AROUND`; more is a change of speed, which is not judged
 AROUND = 0.1  # [s]
 SAME = 5e-4  # [s] between equal stamps
+GEOMETRY = runpy.run_path(str(Path(__file__).with_name("geometry.py")))
 MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
-polar, about_z = MISCONCEPTIONS["polar"], MISCONCEPTIONS["about_z"]
+OTHER_HITS = runpy.run_path(str(Path(__file__).with_name("other_hits.py")))
+HEADERS = runpy.run_path(str(Path(__file__).with_name("headers.py")))
+UNANSWERED = runpy.run_path(str(Path(__file__).with_name("unanswered.py")))
+Frame, matrices, mounted, polar, about_z = (
+    GEOMETRY[name] for name in ("Frame", "matrices", "mounted", "polar", "about_z")
+)
 TOPIC, SCAN, TF = "topics/nearest_hit", "topics/scan", "topics/tf"
 PUBLIC_MOUNT = (0.2, -0.14, 0.3), (0.0, 0.0, np.sin(1.0), np.cos(1.0))  # of turned_lidar.sdf: place [m], quaternion
-
-
-@dataclass(frozen=True)
-class Frame:
-    """Poses of one frame in another, one a row: matrices (n, 3, 3) and places (n, 3) [m]."""
-
-    turn: np.ndarray
-    place: np.ndarray
-
-    def of(self, points):
-        """Return points (n, 3) [m] in the outer frame."""
-        return self.turned(points) + self.place
-
-    def turned(self, points):
-        return np.einsum("nij,nj->ni", self.turn, points)
-
-    def inverse(self):
-        turn = np.transpose(self.turn, (0, 2, 1))
-        return Frame(turn, -Frame(turn, self.place).turned(self.place))
-
-    def flat(self):
-        """Return the poses with their heading only, as if nothing were tilted or upside down."""
-        return replace(self, turn=about_z(np.arctan2(self.turn[:, 1, 0], self.turn[:, 0, 0])))
 
 
 @dataclass(frozen=True)
@@ -57,8 +40,8 @@ class Scans:
 
     `arrived` are their times of arrival [s], `stamps` those of their measurement [s]; `rows` the ranges [m], `angles`
     those of the first ray and between two [rad]; `hits` the nearest hits in the scanner's frame (n, 3) [m], `rays`
-    their numbers. `points` (n, 3) [m] is NaN where there is none, `answered` when it came [s]; `by_stamp`:
-    the points belong to the scans whose stamps they have.
+    their numbers. `points` (n, 3) [m] is NaN where there is none, `answered` when it came [s], `number` how many there
+    were; `by_stamp`: the points belong to the scans whose stamps they have.
     """
 
     arrived: np.ndarray
@@ -71,17 +54,8 @@ class Scans:
     mount: Frame
     points: np.ndarray
     answered: np.ndarray
+    number: np.ndarray
     by_stamp: bool = True
-
-
-def matrices(x, y, z, w):
-    """Return the rotation matrices (n, 3, 3) of quaternions."""
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.stack([np.stack(row, -1) for row in rows], -2)
 
 
 def values(recording, name):
@@ -92,11 +66,6 @@ def odom(recording, times):
     """Return the robot's true poses at times [s]; the frame odom is that of the world."""
     poses = true_poses(recording, times, ("x", "y", "z", "yaw"))
     return Frame(about_z(poses[:, 3]), poses[:, :3])
-
-
-def mounted(place, quaternion, count):
-    turn = matrices(*(np.array([float(v)]) for v in quaternion))
-    return Frame(np.repeat(turn, count, 0), np.repeat(np.array([place], dtype=float), count, 0))
 
 
 def scans(recording):
@@ -132,6 +101,7 @@ def scans(recording):
         mount=mounted(poses.positions[-1], poses.quaternions[-1], count),
         points=np.full((count, 3), np.nan),
         answered=np.full(count, np.nan),
+        number=np.zeros(count, dtype=int),
     )
     return with_points(recording, found)
 
@@ -142,26 +112,35 @@ def with_points(recording, found):
     Who keeps a scan until its transform is there answers when the next one comes. Of several points for one scan, that
     which is farthest from the truth counts.
     """
+    truth = right(recording, found)
+    best, *others = assigned(recording, found, truth)
+    for each in others:
+        met, before = (int(np.sum(near(one.points, truth, TOLERANCE))) for one in (each, best))
+        if met > before and met >= SHARE * len(recording.signal(f"{TOPIC}/point/x")):
+            best = each
+    return best
+
+
+def assigned(recording, found, truth):
+    """Return the scans with the points that have their stamps, that came after them, and after the next one."""
     times = recording.signal(f"{TOPIC}/point/x").times / 1e9
     stamps = values(recording, f"{TOPIC}/header/stamp")
     points = np.stack([values(recording, f"{TOPIC}/point/{axis}") for axis in "xyz"], -1)
-    truth = right(recording, found)
     last = np.searchsorted(found.arrived, times + SAME) - 1
     with_stamp = np.array([int(np.argmin(np.abs(found.stamps - stamp))) for stamp in stamps], dtype=int)
     strange = np.abs(found.stamps[with_stamp] - stamps) > SAME
-    best = None
+    results = []
     for by_stamp, which in ((True, np.where(strange, last, with_stamp)), (False, last), (False, last - 1)):
-        given, answered = found.points.copy(), found.answered.copy()
+        given, answered, number = found.points.copy(), found.answered.copy(), found.number.copy()
         for time, scan, point in zip(times, which, points, strict=True):
             if scan < 0:
                 continue
+            number[scan] += 1
             worse = np.linalg.norm(point - truth[scan]) > np.linalg.norm(given[scan] - truth[scan])
             if np.isnan(given[scan, 0]) or worse:
                 given[scan], answered[scan] = point, time
-        met = int(np.sum(near(given, truth, TOLERANCE)))
-        if best is None or (met > best[0] and met >= SHARE * len(times)):
-            best = met, replace(found, points=given, answered=answered, by_stamp=by_stamp)
-    return best[1]
+        results.append(replace(found, points=given, answered=answered, number=number, by_stamp=by_stamp))
+    return results
 
 
 def near(points, others, within):
@@ -208,15 +187,34 @@ def places(recording, parameters):
     if met.mean() >= SHARE:
         return Finding(True, expected, measured)
     first = which[np.flatnonzero(~met)[0]]
-    why = explanation(recording, found, truth, which, bad) or silence(found, truth)
+    why = (
+        OTHER_HITS["several"](found.number)
+        or otherwise_assigned(recording, found, truth, which, missing)
+        or explanation(recording, found, truth, which, bad)
+        or UNANSWERED["reason"](recording, infinite, int((~missing).sum()), len(which))
+        or silence(found, truth)
+    )
     return Finding(False, expected, measured, round(float(found.arrived[first]), 3), explanation=why)
+
+
+def otherwise_assigned(recording, found, truth, which, missing):
+    """Explain points whose stamps are not those of the scans: they are taken for the scans before which they came."""
+    if missing.mean() < 0.5:
+        return ""
+    for each in assigned(recording, found, truth)[1:]:
+        there = ~np.isnan(each.points[which, 0])
+        bad = np.flatnonzero(there & ~near(each.points, truth, TOLERANCE)[which])
+        why = explanation(recording, each, truth, which, bad, guess=False)
+        if there.mean() >= 0.5 and why:
+            return why
+    return ""
 
 
 def shown(point):
     return "(" + ", ".join(f"{v:.2f}" for v in point) + ")"
 
 
-def explanation(recording, found, truth, which, bad):
+def explanation(recording, found, truth, which, bad, guess=True):
     """Return which misconceptions fit nearly all points that are wrong; empty if none does."""
     if len(bad) < FEWEST:
         return ""
@@ -230,9 +228,13 @@ def explanation(recording, found, truth, which, bad):
             if words not in fitting and not any(near(predicted, other, CLOSE / 3)[wrong].all() for other in same):
                 fitting.append(words)
                 same.append(predicted)
+    if not fitting and not guess:
+        return ""
     if not fitting:
         seen = both_frames(recording, found).inverse().of(found.points)
-        fitting = [MISCONCEPTIONS["apart"](found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong])]
+        apart = MISCONCEPTIONS["apart"](found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong])
+        hit = OTHER_HITS["some_hit"](found, wrong, seen)
+        fitting = [hit if not apart.startswith("all") and hit else apart]
     return f"your points are {', or '.join(fitting[:2])}" if fitting[0] else ""
 
 
@@ -250,7 +252,11 @@ def silence(found, truth):
     last = found.stamps[there][-1]
     if last < 0.6 * found.stamps[-1]:
         return f"the points stop: the last one is that of the scan at {last:.1f} s"
-    return f"only {there.sum()} of {len(there)} scans got a point: keep a scan until its transform is there"
+    share = f"only {there.sum()} of {len(there)} scans got a point"
+    steps = np.diff(found.stamps[there])
+    if len(steps) > 3 and np.ptp(steps) < 0.02 and steps[0] > 0.15:
+        return f"{share}, one in {steps[0]:.1f} s, as of a timer: every scan needs one"
+    return f"{share}: keep a scan until its transform is there"
 
 
 def predictions(recording, found, truth):
@@ -292,9 +298,18 @@ def predictions(recording, found, truth):
         "those of the latest transform when they were published, not of that at the scan's stamp",
         latest(found.answered),
     )
+    whole = np.floor(found.stamps)
+    yield "those of the transform at the whole second: stamp.sec without stamp.nanosec is not the time", at(whole)
+    yield (
+        "those of the transform in the first second: stamp.nanosec without stamp.sec is not the time",
+        at(found.stamps - whole),
+    )
     yield "those of the transform one scan earlier", at(found.stamps - 0.1)
     yield "those of the transform one scan later", at(found.stamps + 0.1)
     yield "those of a transform that was looked up once, at the beginning", at(np.full(count, found.stamps[0]))
+    for shift in (0.05, *np.arange(0.15, 1.01, 0.05), *np.arange(-1.0, -0.14, 0.05), -0.05):
+        side = "before" if shift > 0 else "after"
+        yield f"those of the transform {abs(shift):.2f} s {side} the scan's stamp", at(found.stamps - shift)
     yield "the hit of the scan before, moved by the transform of this scan", before
     yield "right on the floor plan, but z is 0: a point in odom is as high as the scanner", flat
     upright = robot.of(mount.flat().of(hits))
@@ -303,11 +318,29 @@ def predictions(recording, found, truth):
     yield "those of the mount in the public world: ask /tf_static, other robots differ", robot.of(written.of(hits))
     yield "the place of the robot, not of the hit", robot.place
     yield "the place of the scanner, not of the hit", both.place
+    yield (
+        "turned by the robot's heading only: the rotation of the scanner's mount is missing",
+        robot.turned(hits) + both.place,
+    )
+    yield "turned by the rotation of the mount only: that of the robot is missing", mount.turned(hits) + both.place
+    unturned = both.turned(hits) + mount.place + robot.place
+    yield "those of a mount that does not turn with the robot: its translation belongs to the robot's axes", unturned
+    yield "the way from the robot to the hit: the robot's place is missing", truth - robot.place
+    yield "mirrored: their y has the wrong sign", truth * (1, -1, 1)
+    yield "mirrored: their x has the wrong sign", truth * (-1, 1, 1)
+    yield "mirrored: x and y have the wrong sign", truth * (-1, -1, 1)
+    yield "those with x and y exchanged", truth[:, [1, 0, 2]]
+    for in_odom, words, points in OTHER_HITS["rounded"](truth, hits):
+        yield words, points if in_odom else both.of(points)
+    for words, points in OTHER_HITS["of_other_measures"](found, both, mount):
+        yield words, both.of(points)
     yield "transformed twice", both.of(both.of(hits))
     yield "transformed twice by the pose of the robot", robot.of(robot.of(on_robot))
     for words, (x, y, z, w) in MISCONCEPTIONS["of_other_quaternions"](both.turn):
         yield words, Frame(matrices(x, y, z, w), both.place).of(hits)
     for words, points in MISCONCEPTIONS["of_other_headings"](both.turn, hits, found.points - both.place):
+        yield words, points + both.place
+    for words, points in MISCONCEPTIONS["of_other_matrices"](both.turn, hits):
         yield words, points + both.place
     for words, points in MISCONCEPTIONS["of_other_rays"](found):
         yield words, both.of(points)
@@ -334,26 +367,10 @@ def stamps(recording, parameters):
     if other.mean() <= 1 - SHARE:
         return Finding(False, expected, measured)
     example = np.flatnonzero(other)[0]
+    heard = recording.signal(f"{TF}/count").times / 1e9
     at = float(given.times[example] / 1e9)
     measured += f"; at {at:.2f} s a point had the stamp {given.values[example]:.3f} s"
-    return Finding(False, expected, measured, round(at, 3), explanation=why_stamps(given, other, sent, recording))
-
-
-def why_stamps(given, other, sent, recording):
-    times, wrong = given.times[other] / 1e9, given.values[other]
-    heard = recording.signal(f"{TF}/count").times / 1e9
-    latest = heard[np.maximum(np.searchsorted(heard, times + SAME) - 1, 0)] if len(heard) else times + 1
-    if np.mean(wrong == 0) >= SHARE:
-        return "the stamps of your points are 0: nothing has set them"
-    if np.mean(np.abs(wrong - np.floor(wrong)) < SAME) >= SHARE:
-        return "the stamps of your points are whole seconds: a stamp is sec and nanosec"
-    if np.mean(np.abs(wrong - times) <= SAME) >= SHARE:
-        return "the stamps of your points say when they were published, not when the scan was taken"
-    if np.mean(np.min(np.abs(wrong[:, None] - sent[None, :]), axis=1) <= SAME) >= SHARE:
-        return "the stamps of your points are those of the next scan"
-    if np.mean(np.abs(wrong - latest) <= SAME) >= SHARE:
-        return "the stamps of your points are those of the latest transform, not of the scan"
-    return ""
+    return Finding(False, expected, measured, round(at, 3), explanation=HEADERS["stamps"](given, other, sent, heard))
 
 
 def frames(recording, parameters):
@@ -365,9 +382,5 @@ def frames(recording, parameters):
     wrong = [name for name in dict.fromkeys(named) if name != "odom"]
     if not wrong and named:
         return Finding(True, expected, "frame_id 'odom'")
-    said = repr(wrong[0] if wrong else "")
-    meant = "the frame in which the point was measured" if "scanner" in said else ""
-    meant = "the frame of the robot" if said == "'robot'" else meant
-    meant = "empty" if said == "''" else meant
-    why = f"the frame_id of your points is {meant}, not that of their coordinates" if meant else ""
-    return Finding(False, expected, f"frame_id {said}", explanation=why)
+    said = wrong[0] if wrong else ""
+    return Finding(False, expected, f"frame_id {said!r}", explanation=HEADERS["frame"](said))

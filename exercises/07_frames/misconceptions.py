@@ -1,5 +1,8 @@
 """Where points lie if they are those of other rays, or of another heading; and in what wrong points are right."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 
 CLOSE = 0.03  # [m]
@@ -7,15 +10,8 @@ SAME_WAY = 0.03  # [rad]
 SHARE = 0.9  # of the points
 SIGNS = (1, -1, -1), (-1, 1, -1), (-1, -1, 1), (1, 1, 1)  # of the diagonal, for x, y, z, w
 
-
-def about_z(angle):
-    c, s, zero = np.cos(angle), np.sin(angle), np.zeros_like(angle)
-    return np.stack([np.stack([c, -s, zero], -1), np.stack([s, c, zero], -1), np.stack([zero, zero, zero + 1], -1)], -2)
-
-
-def polar(distance, angle):
-    """Return points (n, 3) [m] in the plane of the scanner."""
-    return np.stack([distance * np.cos(angle), distance * np.sin(angle), np.zeros_like(angle)], -1)
+GEOMETRY = runpy.run_path(str(Path(__file__).with_name("geometry.py")))
+polar, about_z = GEOMETRY["polar"], GEOMETRY["about_z"]
 
 
 def of_other_headings(turn, hits, given):
@@ -31,6 +27,15 @@ def of_other_headings(turn, hits, given):
         f"turned by q.w as if it were an angle: {right}": lambda z, w: w,
         f"turned by 2 * q.z: {right}": lambda z, w: 2 * z,
         f"turned by half the heading: {right}": np.arctan2,
+        f"turned by 2 * q.z * q.w, which is about the sine of the heading, not the heading: {right}": lambda z, w: (
+            2 * z * w
+        ),
+        f"turned by asin(q.z): {right}": lambda z, w: np.arcsin(z),
+        f"turned by acos(q.w): {right}": lambda z, w: np.arccos(w),
+        f"turned by 2 * acos(q.w), which has lost its sign: {right}": lambda z, w: 2 * np.arccos(w),
+        f"turned by 2 * asin(q.z), which is right to 180 degrees of q.w > 0 only: {right}": lambda z, w: (
+            2 * np.arcsin(z)
+        ),
         "turned by the heading in degrees: cos() and sin() take radians": lambda z, w: np.degrees(2 * np.arctan2(z, w)),
         f"turned by an angle whose z and w are exchanged: {right}": lambda z, w: 2 * np.arctan2(w, z),
     }
@@ -53,6 +58,23 @@ def of_other_quaternions(turn):
     yield words, (z, y, x, w)
 
 
+def of_other_matrices(turn, hits):
+    """Yield hits (n, 3) [m] turned by the heading of the rotations (n, 3, 3) with one slip in the matrix."""
+    heading = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
+    c, s = np.cos(heading), np.sin(heading)
+    x, y, z = hits.T
+    right = "x is x * cos - y * sin, y is x * sin + y * cos"
+    rows = {
+        "a sign in x": (c * x + s * y, s * x + c * y),
+        "a sign in y": (c * x - s * y, -s * x + c * y),
+        "the sign of y * cos": (c * x - s * y, s * x - c * y),
+        "the sign of x * cos": (-c * x - s * y, s * x + c * y),
+        "sin and cos, which are exchanged": (s * x - c * y, c * x + s * y),
+    }
+    for words, (across, along) in rows.items():
+        yield f"turned by a matrix that is wrong in {words}: {right}", np.stack([across, along, z], -1)
+
+
 def of_other_rays(found):
     """Yield points in the scanner's frame that take another ray, or another direction for the ray."""
     first, step = found.angles.T
@@ -71,6 +93,21 @@ def of_other_rays(found):
     yield "those of a ray's number in degrees: use angle_increment", polar(distance, first + numbers)
     yield "off by one ray: their angle is that of the ray before", polar(distance, angle - step)
     yield "off by one ray: their angle is that of the next ray", polar(distance, angle + step)
+    whole = 2 * np.pi / np.array([len(row) for row in found.rows])
+    words = "those of a step of 2 * pi / n between the rays, as if they went all around: use angle_increment"
+    yield words, polar(distance, first + found.rays * whole)
+    yield (
+        "those of angles that count down from angle_max: they begin at angle_min",
+        polar(distance, first + (np.array([len(row) for row in found.rows]) - 1 - found.rays) * step),
+    )
+    yield (
+        "off by the whole angle of a scan: their angle is angle_max + i * angle_increment",
+        polar(distance, first + (np.array([len(row) for row in found.rows]) - 1 + found.rays) * step),
+    )
+    yield (
+        "those of an angle_increment in degrees: it is in radians already",
+        polar(distance, first + found.rays * np.radians(step)),
+    )
     yield "those of the nearest distance, drawn straight ahead of the scanner", polar(distance, 0 * angle)
     valid = [
         np.where((row > low) & (row < high), row, np.nan)
@@ -118,4 +155,10 @@ def apart(points, truth, seen, hits):
         if np.mean(np.abs(more - np.median(more)) <= CLOSE / 2) >= SHARE:
             times = f", all {abs(np.median(more)):.2f} m too {'far' if np.median(more) > 0 else 'near'}"
         return f"in the right directions from the scanner, but at other distances{times}"
+    if "z" not in axes and axes and axes[-1] == "x and y":
+        distance, height = np.linalg.norm(hits, axis=1), float(np.median(points[:, 2]))
+        if np.mean(np.abs(points[:, 2] - truth[:, 2] - distance) <= CLOSE) >= SHARE:
+            return "right in x and y, but z holds the range: the scanner's plane has z = 0 in its own frame"
+        same = np.ptp(points[:, 2]) <= CLOSE
+        return f"right in x and y, but not in z, {f'always {height:.2f}' if same else f'such as {points[0, 2]:.2f}'} m"
     return f"right in {axes[-1]} only" if axes else ""

@@ -1,6 +1,13 @@
-"""The checks of this exercise: what the node said and did, compared with the true places of robot and posts."""
+"""The checks of this exercise: what the node said and did, compared with the true places of robot and posts.
+
+`misconceptions.py` says more about what a wrong run looks like.
+"""
 
 import math
+import runpy
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -20,6 +27,11 @@ FARTHEST = 1e6  # [m] points farther away count as this far
 FULL_TURN, TURN_OFF = 2 * math.pi, 0.16  # [rad]
 STOP, STOP_OFF, FACING = 1.0, 0.12, 0.12  # [m], [m], [rad]
 STILL = 1.0  # [s] at the end
+
+
+def misconceptions():
+    """Return the functions of the other file, which uses those of this one."""
+    return SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 
 
 def posts(recording, colour=""):
@@ -80,8 +92,9 @@ def places_the_posts(recording, parameters):
     expected = f"points within {NEAR:g} m of the red posts, at least one for each of them"
     points, stamps, came = said_points(recording)
     if len(points) < FEWEST:
-        number = f"{len(points)} points came on /red_post" if len(points) else "no point came on /red_post"
-        return Finding(False, expected, f"{number}, at least {FEWEST} are needed")
+        number = f"{len(points) or 'no'} points came on /red_post"
+        why = misconceptions().too_few_points(recording, points)
+        return Finding(False, expected, f"{number}, at least {FEWEST} are needed", explanation=why)
     red, names = posts(recording, "red")
     at = pose(recording, stamps)
     there = placed(at, points[:, 0], points[:, 1])
@@ -96,7 +109,10 @@ def places_the_posts(recording, parameters):
     if passed:
         return Finding(True, expected, measured)
     if right.mean() >= SHARE:
-        return Finding(False, expected, f"{measured}, but none at {len(missing)} of the {len(red)} red posts")
+        lost = red[[name in missing for name in names]]
+        why = misconceptions().missing_posts(recording, points, stamps, lost)
+        seen = f"{measured}, but none at {len(missing)} of the {len(red)} red posts"
+        return Finding(False, expected, seen, gated=not turns_once(recording, parameters).passed, explanation=why)
     first = int(np.argmin(right))
     ahead, left = points[first, :2]
     nearest = red[np.argmin(np.linalg.norm(red - there[first], axis=1))]
@@ -105,7 +121,11 @@ def places_the_posts(recording, parameters):
         f"; the first wrong one, stamped {stamps[first] / 1e9:.2f} s, was {ahead:.2f} m ahead and {left:.2f} m left; "
         f"the nearest red post was {true[0] - RADIUS:.2f} m ahead and {true[1]:.2f} m left"
     )
-    why = why_misplaced(recording, points, stamps, came, right)
+    why = (
+        why_misplaced(recording, points, stamps, right)
+        or misconceptions().misplaced(recording, points, stamps, right)
+        or why_somewhere(recording, points, stamps, right)
+    )
     return Finding(False, expected, measured, round(float(came[first] / 1e9), 3), explanation=why)
 
 
@@ -116,7 +136,7 @@ def before_camera(at, place):
     return dx * math.cos(yaw) + dy * math.sin(yaw) - CAMERA_AHEAD, dy * math.cos(yaw) - dx * math.sin(yaw)
 
 
-def why_misplaced(recording, points, stamps, came, right):
+def why_misplaced(recording, points, stamps, right):
     """Return the misconception that explains most of the wrong points; empty if none does."""
     red, _ = posts(recording, "red")
     at = pose(recording, stamps)
@@ -150,11 +170,19 @@ def why_misplaced(recording, points, stamps, came, right):
     for (ahead, left, where), words in candidates:
         if fits(ahead, left, where):
             return words
+    return ""
+
+
+def why_somewhere(recording, points, stamps, right):
+    """Return what kind of wrong points these are if no misconception fits them; empty if that is not known."""
+    red, at = posts(recording, "red")[0], pose(recording, stamps)
+    x, y, _ = points.T
+    wrong = ~right
     turning = np.abs(truth(recording, "angular_z", stamps)) > 0.3
     if (~turning).sum() >= 3 and right[~turning].mean() >= SHARE:
         words = "the points are right while the robot stands and wrong while it turns: "
         for lag in (0.2, 0.4, -0.2, -0.4):
-            if fits(x, y, pose(recording, stamps - round(lag * 1e9))):
+            if hits(placed(pose(recording, stamps - round(lag * 1e9)), x, y), red)[wrong].mean() >= 0.75:
                 return f"{words}the stamp is not that of the picture"
         return f"{words}colour and depth are of different times"
     if directed(at, x, y, red)[wrong].mean() >= 0.75:
@@ -185,16 +213,18 @@ def why_beside(at, ahead, left, places, right):
     true = seen[np.arange(len(ahead)), which, 1]
     if known.sum() < FEWEST or near.any(axis=1).mean() < 0.9:
         return ""
-    if abs(float(np.median(left[known] / true[known])) - 1) <= 0.1:
+    share = left[known] / true[known]
+    if abs(float(np.median(share)) - 1) <= 0.1 and np.mean(np.abs(share - 1) <= 0.15) >= 0.8:
         return ""
-    factors = {"": left[known] / true[known], " for each metre ahead": left[known] / true[known] * ahead[known]}
-    for words, factor in factors.items():
-        usual = float(np.median(factor))
-        if abs(usual - 1) > 0.1 and np.mean(np.abs(factor - usual) <= 0.1 * abs(usual)) >= 0.8:
-            if words:
-                return "ahead is right, left is not: it does not grow with the distance, it lacks the factor ahead"
-            return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
-    return ""
+    factors = {"": share, " for each metre ahead": share * ahead[known]}
+    spread = {words: np.abs(factor / np.median(factor) - 1) for words, factor in factors.items()}
+    words = min(spread, key=lambda each: spread[each].mean())
+    usual = float(np.median(factors[words]))
+    if np.mean(spread[words] <= 0.1) < 0.8 or (not words and abs(usual - 1) <= 0.1):
+        return ""
+    if words:
+        return "ahead is right, left is not: it does not grow with the distance, it lacks the factor ahead"
+    return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
 
 
 def directed(at, ahead, left, places):
@@ -222,15 +252,13 @@ def turns_once(recording, parameters):
         measured = f"no number came; at the end it had turned by {math.degrees(turned):.0f} degrees"
         why = ""
         if turned > 1.5 * FULL_TURN:
-            why = (
-                "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or "
-                "is compared with 360 although it is in radians, or each message counts for less time than has passed, "
-                "or it is one number of a quaternion"
-            )
+            why = misconceptions().on_and_on(recording)
+        elif abs(turned) < 0.1:
+            why = misconceptions().never_turned(recording)
         return Finding(False, expected, measured, explanation=why)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
     passed = abs(turned - FULL_TURN) <= TURN_OFF
-    why = "" if passed else why_turned(recording, when, turned)
+    why = "" if passed else why_turned(recording, when, turned) or misconceptions().too_fast(recording, turned)
     return Finding(passed, expected, measured, round(when / 1e9, 3), explanation=why)
 
 
@@ -273,7 +301,7 @@ def counts_the_posts(recording, parameters):
     first = counted(recording)
     expected = "the number of red posts in the hall"
     if first is None:
-        return Finding(False, expected, "no number came on /red_count")
+        return Finding(False, expected, "no number came on /red_count", gated=True)
     values = recording.signal("topics/red_count/data").values
     number = first[1]
     at = round(first[0] / 1e9, 3)
@@ -281,15 +309,14 @@ def counts_the_posts(recording, parameters):
         return Finding(True, expected, f"{number}, as there are", at)
     if len(values) > 1:
         measured = f"{len(values)} numbers came, {min(values):g} to {max(values):g}; one is asked for"
-        return Finding(False, expected, measured, at)
+        return Finding(False, expected, measured, at, explanation=misconceptions().several_numbers(recording))
     why = ""
     sent = recording.signal("topics/red_post/count")
     sightings = int((sent.times <= first[0]).sum())
     pictures = int((recording.signal("topics/camera/image/count").times <= first[0]).sum())
     turned = float(np.diff(truth(recording, "yaw", np.array([0, first[0]])))[0])
     if number < red and abs(turned) < 0.9 * FULL_TURN:
-        degrees = math.degrees(turned)
-        why = f"the number came when the robot had turned by {degrees:.0f} degrees: the rest was not seen yet"
+        why = f"it came when the robot had turned by {math.degrees(turned):.0f} degrees: the rest was not seen yet"
     elif number == len(posts(recording, "blue")[0]) != red:
         why = "that is the number of blue posts"
     elif number > 3 * max(pictures, 1):
@@ -300,7 +327,9 @@ def counts_the_posts(recording, parameters):
         why = "that is the number of places if the points are not turned by the heading at which they were seen"
     elif number == found_if(recording, first[0], -1.0):
         why = "that is the number of places if the points are turned the wrong way: check the signs of sin(heading)"
-    elif number == red + 1:
+    else:
+        why = misconceptions().other_count(recording, number, first[0])
+    if not why and number == red + 1:
         why = "one post was counted twice: perhaps at the start and at the end of the turn, by headings that differ"
     return Finding(False, expected, f"the number was {number}, but {red} red posts stand there", at, explanation=why)
 
@@ -320,7 +349,19 @@ def found_if(recording, when, factor):
 
 
 def stops_before_the_post(recording, parameters):
-    """Pass if the robot stands still, faces the nearest red post, and is 1 m before it."""
+    """Pass if the robot stands still, faces the nearest red post, and is 1 m before it.
+
+    Who has misplaced posts, or turned or counted wrongly, stops wrongly for that reason.
+    """
+    found = stopped(recording)
+    earlier = (places_the_posts, turns_once, counts_the_posts)
+    if found.passed or all(check(recording, parameters).passed for check in earlier):
+        return found
+    return replace(found, gated=True, explanation="")
+
+
+def stopped(recording):
+    """Return where and how the robot stands at the end."""
     expected = f"at the end it faces the nearest red post, {STOP:g} m before it (to {STOP_OFF:g} m), and stands still"
     end = np.array([recording.end_ns])
     here = tuple(float(each[0]) for each in pose(recording, end))
@@ -339,17 +380,21 @@ def stops_before_the_post(recording, parameters):
     drifted, turning = (float(np.diff(truth(recording, name, last))[0]) for name in ("distance", "yaw"))
     if drifted > 0.03 or abs(turning) > 0.05:
         measured = f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s"
-        return Finding(False, expected, measured)
+        return Finding(False, expected, measured, explanation=misconceptions().still_moving(recording))
     if not faced:
-        return Finding(False, expected, "it stood and faced no post")
+        why = misconceptions().faced_nothing(recording, here, start)
+        return Finding(False, expected, "it stood and faced no post", explanation=why)
     name = names[faced[0]]
     away = math.hypot(*seen[faced[0]]) - RADIUS
     measured = f"it stood {away:.2f} m before a {name.partition('_')[0]} post"
     if name == wanted:
-        return Finding(abs(away - STOP) <= STOP_OFF, expected, measured)
+        passed = abs(away - STOP) <= STOP_OFF
+        why = "" if passed else misconceptions().wrong_stop(recording, away)
+        return Finding(passed, expected, measured, explanation=why)
     why = ""
     if name.startswith("blue"):
         why = "it is a blue post: red and blue are swapped (rgb8 and bgr8)"
     elif name.startswith("red"):
         measured += ", which is not the one nearest to the start"
+        why = misconceptions().other_post(recording, name)
     return Finding(False, expected, measured, explanation=why)

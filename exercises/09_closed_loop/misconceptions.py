@@ -1,7 +1,13 @@
 """What a run along the wall looks like if the node has a common misconception; `wall.py` names the first that fits."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 
+from gz_course.grader.score.suspects import suspect
+
+STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
 SETTLED = 7.0  # [s] after the start
 KEPT = 0.08  # [m] within which a distance is kept
 FIRST = 15  # scans in which the robot was too near
@@ -11,11 +17,14 @@ def explain(run):
     """Return the misconception that fits the run; empty if none does."""
     looks = (
         open_loop,
+        never_drives,
+        rare_commands,
         in_degrees,
         on_off,
         other_side,
         gaps,
         nearest_anywhere,
+        measures,
         counted_turns,
         stopped,
         old_distance,
@@ -23,8 +32,10 @@ def explain(run):
         wound_up,
         saturated,
         swings,
+        weak,
         against_a_wall,
         elsewhere,
+        slow,
     )
     return next((said for look in looks if (said := look(run))), "")
 
@@ -37,7 +48,62 @@ def open_loop(run):
     return "your node does not subscribe to /lidar/scan, so it drives open loop, without feedback"
 
 
+def never_drives(run):
+    """Find out whether the commands let the robot stand from the start."""
+    if np.abs(run.along).sum() > 0.3:
+        return ""
+    ahead = np.abs(run.recording.signal("topics/cmd_vel/linear/x").values)
+    turns = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    if not len(ahead):
+        return ""
+    if (ahead > 0.01).mean() < 0.05:
+        less = "and turns on the spot" if (turns > 0.1).mean() > 0.5 else "and no command turns it"
+        hits = scans(run)[2]
+        none = "" if np.isfinite(hits).any() else "; no ray hits anything"
+        return f"the robot never drives, {less}: linear.x is 0 in {(ahead < 0.01).mean():.0%} of the commands{none}"
+    if (turns > 1.0).mean() > 0.8:
+        return (
+            f"the robot turns on the spot all the time: angular.z is beyond 1 rad/s in {(turns > 1.0).mean():.0%} of "
+            "the commands, so the angle that it is made of never becomes small"
+        )
+    return ""
+
+
+def rare_commands(run):
+    """Find out whether commands come much more rarely than scans."""
+    commands = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    times = scans(run)[0]
+    if len(commands) < 5 or len(times) < 5:
+        return ""
+    between, apart = float(np.median(np.diff(commands))), float(np.median(np.diff(times)))
+    if between < 2.5 * apart:
+        return ""
+    return (
+        f"a command comes every {between:.2g} s only, and a scan every {apart:.2g} s: until the next command the robot "
+        "obeys one from an old scan; publish in the callback of each scan"
+    )
+
+
+def measures(run):
+    times, bearings, ranges = scans(run)
+    return STEERING["measures"](run, times, bearings, ranges) if len(times) else ""
+
+
+def slow(run):
+    """Find out whether the robot drives far below its limit although nothing is wrong with its way."""
+    values = run.recording.signal("topics/cmd_vel/linear/x").values
+    usual = float(np.median(values)) if len(values) else 0.0
+    if not 0.01 < usual < 0.6 * run.limit:
+        return ""
+    return (
+        f"linear.x is {usual:.2f} m/s most of the time, and speed_limit is {run.limit:g} m/s: half of the way that it "
+        "allows is asked for"
+    )
+
+
 def in_degrees(run):
+    if said := suspect(run.recording, "angle"):
+        return said
     values = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
     if len(values) < 50 or np.mean(values > 5.0) < 0.1:
         return ""
@@ -115,6 +181,12 @@ def saturated(run):
     share = float((np.abs(signal.values) > 1.45).mean()) if len(signal) else 0.0
     if share < 0.3:
         return ""
+    jumps = np.abs(np.diff(signal.values)) > 2.0
+    if jumps.mean() > 0.15:
+        return (
+            f"angular.z was at its limit in {share:.0%} of the commands, and jumped from one limit to the other "
+            f"{jumps.sum()} times: the gain is far too high for the time between two scans"
+        )
     return (
         f"angular.z was at its limit in {share:.0%} of the commands: a gain is far too high, or a term grows without "
         "end, such as an integral (wind-up)"
@@ -130,6 +202,19 @@ def swings(run):
     return (
         f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
         "only the distance is fed back, or the gain is too high for the time between two scans"
+    )
+
+
+def weak(run):
+    """Find out whether the robot never turns much, however wrong its distance is."""
+    rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    late = run.times > 3.0
+    worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
+    if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
+        return ""
+    return (
+        f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
+        "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
     )
 
 

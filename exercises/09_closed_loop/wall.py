@@ -124,6 +124,9 @@ def keeps_distance(recording, parameters):
     wanted = run.asked[-1 if second else 0]
     where = f"{wanted:g} m ± {tolerance:g} m from the wall on the {run.side}"
     expected = f"{where} on {share:.0%} of the way, {start:g} to {end:g} s"
+    refused = [each for each in recording.facts().get("parameters_set", []) if each["outcome"] != "set"]
+    if second and refused:  # whatever its callback has stored, to everybody else the parameter is what it was
+        return Finding(False, expected, "the new value of the parameter was refused", start)
     kept, way = run.within(start, end, tolerance)
     if way < parameters["way"]:
         return _finding(
@@ -176,8 +179,24 @@ def keeps_limits(recording, parameters):
             said = (
                 f"{name.replace('/', '.')} was beyond in {beyond.sum()} of {len(beyond)} commands, first at {at:.1f} s"
             )
-            return Finding(False, expected, f"{said}; the worst was {worst:.2f} {unit}", round(float(at), 2))
+            seen = f"{said}; the worst was {worst:.2f} {unit}"
+            why = limits_missed(name.replace("/", "."), signal.values, low, high)
+            return Finding(False, expected, seen, round(float(at), 2), explanation=why)
     return Finding(True, expected, "every command was")
+
+
+def limits_missed(name, values, low, high):
+    """Return what values look like that are beyond their limits."""
+    if np.unique(np.round(values, 3)).size == 1:
+        return f"{name} is always {values[0]:.2f}"
+    if (values < low - 1e-3).all() or (values > high + 1e-3).all():
+        return f"{name} is never within {low:g} and {high:g}: min and max are exchanged, or the limit is another one"
+    if low == 0.0 and values.min() < -1e-3 and values.max() <= high + 1e-3:
+        return f"{name} becomes negative, which drives backwards: a factor of it, such as 1 - |turning|, is below 0"
+    worst = float(np.abs(values).max())
+    if np.mean(np.abs(np.abs(values) - worst) < 1e-3) > 0.1:
+        return f"{name} is limited to {worst:.2f}, but {high:g} is the limit"
+    return f"{name} is not limited, or something is added to it after that"
 
 
 def drives_steadily(recording, parameters):

@@ -35,8 +35,14 @@ def interface_fault():
         from patrol_interfaces.action import Patrol
     except ImportError as error:
         return None, str(error)
+    fields = {part: getattr(Patrol, part).get_fields_and_field_types() for part in FIELDS}
+    if fields["Result"].keys() >= FIELDS["Feedback"].keys() and fields["Feedback"].keys() >= FIELDS["Result"].keys():
+        return None, (
+            "the second part of Patrol.action holds the feedback and the third the result; the order of the parts is "
+            "goal, result, feedback"
+        )
     for part, wanted in FIELDS.items():
-        found = getattr(Patrol, part).get_fields_and_field_types()
+        found = fields[part]
         for name, kind in wanted.items():
             if found.get(name) != kind:
                 seen = f"{name} of type {found[name]}" if name in found else f"{', '.join(found) or 'no field'}"

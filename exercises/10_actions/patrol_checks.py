@@ -1,10 +1,14 @@
 """The checks of the patrol: what the dispatcher got from the action server, and what the robot really did.
 
 The dispatcher's messages are in `given_node.py`. Waypoints are in the frame odom, which begins where the robot starts.
+`misconceptions.py` says what a wrong patrol looks like.
 """
 
 import json
+import runpy
 from itertools import pairwise
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -13,6 +17,7 @@ from gz_course.grader.score.check import Finding
 NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
 LARGEST_GAP = 1.1  # [s] between two feedback messages
 STOPPED = 0.5  # [s] after the cancellation
+MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 GOALS = {"empty": "a goal without waypoints", "too_fast": "a speed above max_speed", "backwards": "a negative speed"}
 
 
@@ -20,6 +25,7 @@ class Run:
     """The events of a run, by name and goal, and the way of the robot in the frame odom."""
 
     def __init__(self, recording):
+        self.recording = recording
         self.events = []
         for line in recording.lines("topics/dispatcher/data"):
             try:
@@ -36,6 +42,7 @@ class Run:
             east, north = x.values - x.values[0], y.values - y.values[0]
             c, s = np.cos(yaw.values[0]), np.sin(yaw.values[0])
             self.way = np.column_stack((c * east + s * north, c * north - s * east))
+            self.heading = yaw.values - yaw.values[0]
 
     def all(self, event, goal):
         return [each for each in self.events if each["event"] == event and each["goal"] == goal]
@@ -126,25 +133,25 @@ def rejects(recording, parameters):
 
 
 def visits(recording, parameters):
-    run, expected = Run(recording), "every waypoint within 0.15 m, in the order of the goal"
+    run, expected = Run(recording), "every waypoint within 0.15 m, in the order of the goal; then the robot stands"
     if gate := no_patrol(run, expected):
         return gate
     _, end = run.period("patrol")
     count, left = run.nearest("patrol", end)
     total = len(run.waypoints("patrol"))
+    if count == total and (moving := MISCONCEPTIONS.drives_on(run)) > 0.03:
+        words = "The robot drives on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
+        return Finding(False, expected, f"{moving:.2f} m/s after the end", end, explanation=words)
     if count == total:
         return Finding(True, expected, f"{total} of {total} waypoints")
-    why = ""
-    if run.one("result", "patrol") is None and not run.all("feedback", "patrol"):
+    why = MISCONCEPTIONS.reached_early(run, "patrol")
+    still = not run.linear.values[(run.times > run.period("patrol")[0]) & (run.times < end)].any()
+    if still and run.one("result", "patrol") is None and not run.all("feedback", "patrol"):
         why = (
             "Your server accepted a patrol, then neither feedback nor a result came: execute waits for something that "
             "cannot happen meanwhile"
         )
-    elif run.one("result", "patrol") is None:
-        why = (
-            "The patrol never ended: the loop in execute does not see where the robot is. While it runs, /odom needs a "
-            "thread of its own, that of a MultiThreadedExecutor, and a callback group that lets both run"
-        )
+    why = why or MISCONCEPTIONS.went_elsewhere(run, "patrol", end)
     return Finding(
         False, expected, f"{count} of {total}; {left:.2f} m was the nearest to the next", end, explanation=why
     )
@@ -154,17 +161,20 @@ def speed(recording, parameters):
     run, expected = Run(recording), "the speed of the goal on the straight"
     if gate := no_patrol(run, expected):
         return gate
-    measured = ""
+    measured, fastest_of = "", {}
     for goal in ("patrol", "cancelled"):
         if not run.one("accepted", goal):
             continue
         start, end = run.period(goal)
         values = run.linear.values[(run.times >= start) & (run.times <= end)]
         fastest, wanted = float(np.max(values, initial=0.0)), run.one("sent", goal)["speed"]
-        measured = f"{fastest:.2f} m/s where {wanted:.2f} m/s was asked for"
-        if not 0.85 * wanted <= fastest <= 1.12 * wanted:
-            return Finding(False, expected, measured, start)
-    return Finding(True, expected, measured)
+        fastest_of[goal] = fastest
+        right = 0.85 * wanted <= fastest <= 1.12 * wanted
+        if not measured or not right:
+            measured, at, passed = f"{fastest:.2f} m/s where {wanted:.2f} m/s was asked for", start, right
+    driven = any(fastest > 0.02 for fastest in fastest_of.values())
+    why = "" if passed or not driven else MISCONCEPTIONS.other_speed(run, fastest_of)
+    return Finding(passed, expected, measured, None if passed else at, explanation=why)
 
 
 def feedback(recording, parameters):
@@ -194,7 +204,7 @@ def feedback(recording, parameters):
     if (indices[0], indices[-1]) == (1, len(points)):
         return wrong(f"waypoint was {indices[0]} first", times[1], "Your feedback counts the waypoints from 1")
     if indices != sorted(indices) or (indices[0], indices[-1]) != (0, len(points) - 1):
-        return wrong(f"waypoint went from {indices[0]} to {indices[-1]}", times[1])
+        return wrong(f"waypoint went from {indices[0]} to {indices[-1]}", times[1], other_index(indices, len(points)))
     off = 0
     for each in said:
         here = run.way[np.searchsorted(run.times, each["at"]).clip(0, len(run.times) - 1)]
@@ -206,30 +216,27 @@ def feedback(recording, parameters):
     return Finding(True, expected, f"{len(said)} messages")
 
 
+def other_index(indices, total):
+    """Return what else the numbers of the waypoints in the feedback are; empty if that is not known."""
+    if len(set(indices)) == 1:
+        return f"waypoint of your feedback is always {indices[0]}: it is the index of the waypoint the robot drives to"
+    if indices == sorted(indices, reverse=True):
+        return "waypoint of your feedback counts down, as if it were how many are left: it is an index, from 0"
+    if indices == sorted(indices) and indices[-1] > total:
+        return (
+            "waypoint of your feedback counts rounds of the loop: it is the index of the waypoint the robot drives to"
+        )
+    return ""
+
+
 def other_distance(run, said, points):
     """Return what else the distances of the feedback are; empty if that is not known."""
-    places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
-    given, way = np.array([each["distance"] for each in said]), run.way[places]
-    steps = np.hypot(*np.diff(run.way, axis=0, prepend=run.way[:1]).T)
-    targets = np.array(points)
-    index = np.array([each["waypoint"] for each in said])
-
-    def to(numbers):
-        return np.hypot(*(way - targets[np.clip(numbers, 0, len(targets) - 1)]).T)
-
-    following = np.hypot(*np.diff(targets, axis=0).T)
-    candidates = {
-        "how far the robot is from where it started": np.hypot(*way.T),
-        "how far the robot has driven": np.cumsum(steps)[places] - np.cumsum(steps)[places[0]],
-        "how far it is to the last waypoint": to(np.full(len(index), len(targets))),
-        "how far it is to the next waypoint but one": to(index + 1),
-        "how far it is to the waypoint before": to(index - 1),
-        "the whole way that is left, over all waypoints": to(index) + [following[i:].sum() for i in index],
-        "0": np.zeros(len(index)),
-    }
-    for words, values in candidates.items():
-        if np.mean(np.abs(values - given) <= 0.15) >= 0.9:
+    given = np.array([each["distance"] for each in said])
+    for words, values in MISCONCEPTIONS.other_feedback(run, said, points):
+        if np.mean(np.abs(values - given) <= 0.15 * max(1.0, np.abs(given).max() / 4)) >= 0.9:
             return f"Your distance is {words}; it should be how far it is to the waypoint of the feedback"
+    if (given < 0).mean() > 0.5:
+        return "Your distance is negative: it is how far it is to the waypoint of the feedback, hypot(dx, dy)"
     return ""
 
 
@@ -261,7 +268,7 @@ def result(recording, parameters):
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
         why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
     elif found["status"] == "SUCCEEDED" and found["visited"] != total:
-        why = f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
+        why = MISCONCEPTIONS.other_visited(run, found, total)
     passed = found["status"] == "SUCCEEDED" and found["visited"] == total
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
@@ -276,7 +283,11 @@ def busy(recording, parameters):
         return gated(expected, "nobody answered to a second goal")
     for goal in ("cancelled", "again"):
         if event := run.one("rejected", goal):
-            after = "a patrol had succeeded" if goal == "cancelled" else "one was cancelled"
+            ended = run.one("result", "patrol")
+            succeeded = ended is not None and ended["status"] == "SUCCEEDED"
+            after = (
+                f"a patrol had {'succeeded' if succeeded else 'ended'}" if goal == "cancelled" else "one was cancelled"
+            )
             why = f"Your server rejects every goal after {after}: it still holds itself for busy"
             return Finding(False, expected, f"a goal was rejected after {after}", event["at"], explanation=why)
         if not run.one("accepted", goal):
@@ -312,7 +323,11 @@ def cancel(recording, parameters):
         why = "Your server accepts the cancellation and drives on: the loop never asks goal_handle.is_cancel_requested"
         return Finding(False, expected, f"{moving:.2f} m/s half a second later", at + STOPPED, explanation=why)
     if found is None:
-        return Finding(False, expected, "the goal never ended", at)
+        why = (
+            "The robot stands, but the goal never ended: when goal_handle.is_cancel_requested is true, execute calls "
+            "goal_handle.canceled() and returns a result"
+        )
+        return Finding(False, expected, "the goal never ended", at, explanation=why)
     counts = {run.nearest("cancelled", at, near)[0] for near in (0.08, 0.12, NEAR)}
     measured = f"{found['status']}, visited = {found['visited']}"
     why = ""

@@ -2,16 +2,22 @@
 
 import json
 import math
+import re
+import runpy
+from pathlib import Path
 
 import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import deaths, launch_facts
+from gz_course.grader.score.launched import complaint, deaths, launch_facts, simulator_fault
+
+MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
 
 SCAN, COMMANDS = "/scan", "/cmd_vel"
 LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
 MOUNT = (-0.2, 0.0, 0.19)  # [m] lidar_link in base_link, as in cart.sdf
+WARNING = re.compile(r"^\[[^\]]+\] \[WARN\] (?:\[[\d.]+\] )?\[(\w+)\]: (.*)")  # of a node, in the log of the launch
 
 
 def _ends(recording, kind, type=None, topic=None):
@@ -23,7 +29,10 @@ def time_runs(recording, parameters):
     expected = "a simulator that runs from its start, with -r"
     ran = [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
     if not ran:
-        return Finding(False, expected, "no simulator ran")
+        errors = [each["error"] for each in launch_facts(recording).get("simulators", []) if each["error"]]
+        said = errors[0] if errors else complaint(recording, "gz sim")
+        measured = f"no simulator ran{f'; gz sim said: {said}' if said else ''}"
+        return Finding(False, expected, measured, explanation=simulator_fault(said, recording))
     if ran[0]["paused"]:
         return Finding(False, expected, "the world was started paused: gz sim had no -r")
     return Finding(recording.ended_s > 0, expected, f"{recording.ended_s:.1f} s were simulated")
@@ -33,7 +42,14 @@ def commands_go_to_gazebo(recording, parameters):
     expected = "/cmd_vel -> /model/robot/cmd_vel, ROS_TO_GZ"
     found = [each for each in bridges(recording) if each.gz_topic == "/model/robot/cmd_vel"]
     if not found:
-        return Finding(False, expected, "no bridge has the Gazebo topic /model/robot/cmd_vel")
+        others = [each for each in bridges(recording) if each.ros_topic == COMMANDS]
+        measured = "no bridge has the Gazebo topic /model/robot/cmd_vel"
+        if others:
+            measured = (
+                f"{others[0].place}: /cmd_vel is joined with Gazebo's {others[0].gz_topic}, where the cart does not "
+                "listen: it listens to /model/robot/cmd_vel"
+            )
+        return Finding(False, expected, measured)
     if len(found) > 1:
         return Finding(
             False, expected, f"{len(found)} bridges have the Gazebo topic /model/robot/cmd_vel; one is right"
@@ -55,12 +71,19 @@ def scans_are_heard(recording, parameters):
     expected = "a subscription to /scan that asks for no more than the bridge offers"
     offers = [each for each in bridges(recording) if each.ros_topic == SCAN and each.publisher_qos is not None]
     if not offers or offers[0].gz_topic != "/lidar/scan" or offers[0].direction != "GZ_TO_ROS":
-        return Finding(False, expected, "the bridge does not carry /lidar/scan to /scan, one way")
+        measured = "the bridge does not carry /lidar/scan to /scan, one way"
+        for each in bridges(recording):
+            if "/lidar/scan" in (each.gz_topic, each.ros_topic) or SCAN in (each.gz_topic, each.ros_topic):
+                measured += (
+                    f": {each.place}: /{each.ros_topic.lstrip('/')} in ROS, {each.gz_topic} in Gazebo, {each.direction}"
+                )
+                break
+        return Finding(False, expected, measured)
     takes = _ends(recording, "subscription", LASER_SCAN, SCAN)
     if not takes:
         others = {each["topic"] for each in _ends(recording, "subscription", LASER_SCAN)}
         where = f"; scans are taken from {min(others)}" if others else ""
-        return Finding(False, expected, f"no node subscribes to /scan{where}")
+        return Finding(False, expected, f"no node subscribes to /scan{where}", gated=_died(recording, "ranger"))
     offer = offers[0].publisher_qos
     for end in takes:
         for policy, strong in (("durability", "TRANSIENT_LOCAL"), ("reliability", "RELIABLE")):
@@ -78,13 +101,30 @@ def same_topic(recording, parameters):
     sends = {each["topic"] for each in _ends(recording, "publisher", RANGE)}
     takes = {each["topic"] for each in _ends(recording, "subscription", RANGE)}
     if not sends:
-        return Finding(False, expected, "no node publishes a sensor_msgs/msg/Range")
+        dead = _died(recording, "ranger")
+        return Finding(False, expected, "no node publishes a sensor_msgs/msg/Range", gated=dead)
     if not takes:  # the driver is dead, which another check says: then its topic is the one without a namespace
         right = sends == {"/wall"} and _died(recording, "driver")
         return Finding(right, expected, "so it is" if right else f"nobody takes the distance on {min(sends)}")
     if not sends & takes:
-        return Finding(False, expected, f"the distance is published on {min(sends)} and taken from {min(takes)}")
+        measured = f"the distance is published on {min(sends)} and taken from {min(takes)}"
+        return Finding(False, expected, measured, explanation=_of_a_node(recording, min(sends), min(takes)))
     return Finding(True, expected, f"both use {min(sends & takes)}")
+
+
+def _of_a_node(recording, *topics):
+    """Return why a topic has the name of a node, or of its namespace, in front."""
+    for end in _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE):
+        namespace = end["node"].rpartition("/")[0]
+        for topic in topics:
+            if topic.startswith(f"{end['node']}/"):
+                return f"{topic} begins with the name of the node {end['node']}, and the other side's name does not"
+            if end["topic"] == topic and namespace and topic.startswith(f"{namespace}/"):
+                return (
+                    f"{end['node']} lives in the namespace {namespace}, and a name without a slash at its beginning is "
+                    "put into it"
+                )
+    return ""
 
 
 def _died(recording, name):
@@ -106,29 +146,38 @@ def lidar_frame(recording, parameters):
         if math.dist(seen, MOUNT) < 0.005:
             return Finding(True, expected, "so it is")
         measured = f"the transform says x = {seen[0]:.2f}, y = {seen[1]:.2f}, z = {seen[2]:.2f} m"
-        inverted = math.dist([-each for each in seen], MOUNT) < 0.005
-        why = "the transform is inverted: parent and child are swapped" if inverted else ""
-        signs = [
-            name for name, one, other in zip("xyz", seen, MOUNT, strict=True) if abs(one + other) < 0.005 < abs(one)
-        ]
-        if signs and not inverted:
-            why = f"the sign of {' and '.join(signs)} is wrong"
-        return Finding(False, expected, measured, explanation=why)
-    return Finding(False, expected, "nobody publishes a static transform between base_link and lidar_link")
+        return Finding(False, expected, measured, explanation=MISCONCEPTIONS["of_a_mount"](seen, MOUNT, sign))
+    others = sorted(
+        {tuple(name.split("/")[2:4]) for name in recording.signals() if name.startswith("topics/tf_static/")}
+        - {("count",)}
+    )
+    measured = "nobody publishes a static transform between base_link and lidar_link"
+    dead = any(each.process == "static_transform_publisher" for each in deaths(recording))
+    if others:
+        measured += f"; one between {others[0][0]} and {others[0][1]} is published: names of frames must be equal"
+    return Finding(False, expected, measured, gated=dead)
 
 
 def all_alive(recording, parameters):
-    expected = "no process of the launch ends before Ctrl-C"
+    expected = "no process of the launch ends before Ctrl-C, and every one ends with it"
     facts = launch_facts(recording)
     ended = facts.get("ended_early", [])
     if dead := list(deaths(recording)):
-        return Finding(False, expected, f"{dead[0].process} ended with exit code {dead[0].code}{dead[0].words}")
+        measured = f"{dead[0].process} ended with exit code {dead[0].code}{dead[0].words}"
+        return Finding(False, expected, measured, explanation=dead[0].why)
     if ended:
         return Finding(False, expected, f"{ended[0]['program']} had ended with exit code {ended[0]['code']}")
     if not _ends(recording, "publisher", topic=COMMANDS):
         return Finding(False, expected, "no node publishes /cmd_vel: the driver never ran")
     if not _ends(recording, "subscription", LASER_SCAN):
         return Finding(False, expected, "no node takes scans: the ranger never ran")
+    if deaf := facts.get("escalated", []) + facts.get("left", []):
+        return Finding(False, expected, f"{', '.join(deaf)} did not end with Ctrl-C")
+    if not facts.get("ended_itself", True):
+        return Finding(False, expected, "the launch did not end with Ctrl-C: one of its programs ignores it")
+    if not recording.facts().get("sim_seconds") and not any(each.ros_topic == "/clock" for each in bridges(recording)):
+        measured = "there is neither simulated time nor /clock: that the programs wait for them shows nothing yet"
+        return Finding(False, expected, measured, gated=True)
     return Finding(True, expected, "so it is")
 
 
@@ -138,7 +187,8 @@ def simulated_time(recording, parameters):
     ranger = {each["node"] for each in _ends(recording, "publisher", RANGE)}
     driver = {each["node"] for each in _ends(recording, "subscription", RANGE)} - ranger
     if not ranger:
-        return Finding(False, expected, "no node publishes a sensor_msgs/msg/Range")
+        dead = _died(recording, "ranger")
+        return Finding(False, expected, "no node publishes a sensor_msgs/msg/Range", gated=dead)
     for node in sorted(ranger | driver):
         if node not in follows:
             return Finding(False, expected, f"{node} ran without use_sim_time: its clock is that of the computer")
@@ -153,33 +203,71 @@ def parks(recording, parameters):
     wall = recording.poses("world/wall")
     if not len(x) or wall is None:
         return Finding(False, expected, "nothing was simulated")
-    if recording.signal("truth/robot/distance").values[-1] < 0.1:
-        heard = len(recording.signal("topics/wall/range"))
-        why = "" if heard else "the ranger published no distance on /wall: it waits without end, or drops every scan"
-        if heard and not len(recording.signal("topics/cmd_vel/count")):
-            why = (
-                f"the driver got {heard} distances and published no command: one of its callbacks hangs, and waits for "
-                "what only another callback of the node could bring"
-            )
-        return Finding(False, expected, "the cart stood still", explanation=why)
     qx, qy, qz, qw = wall.quaternions[0]
     normal = np.array([1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qz * qw)])
     places = np.stack([x.values, y.values], axis=1)
     away = np.abs((places - wall.positions[0][:2]) @ normal) - 0.05
+    deaf = _why_deaf(recording)
+    why = deaf or _why_there(recording, x.times, away, wanted)
+    if recording.signal("truth/robot/distance").values[-1] < 0.1:
+        return Finding(False, expected, "the cart stood still", explanation=deaf or _why_still(recording) or why)
     if away.min() < min(wanted - tolerance, 0.23):
-        return Finding(False, expected, f"it came within {away.min():.2f} m of the wall")
+        return Finding(False, expected, f"it came within {away.min():.2f} m of the wall", explanation=why)
     last = away[x.times >= x.times[-1] - 1_000_000_000]
     if x.times[-1] < 8e9:
         return Finding(False, expected, f"the run ended after {x.times[-1] / 1e9:.1f} s")
     worst = last[np.argmax(np.abs(last - wanted))]
-    right = abs(worst - wanted) <= tolerance
-    why = ""
-    if not right and away[-1] > away[0] + 0.5:
-        why = "it drives away from the wall: the sign of linear.x is wrong"
-    for shift, words in (
-        (MOUNT[0], "the distance is measured from the lidar, and is asked for from base_link"),
-        (-MOUNT[0], "the place of the lidar on the cart is taken with the wrong sign"),
-    ):
-        if not right and abs(worst - wanted - shift) <= tolerance:
-            why = f"it stands {abs(shift):g} m too {'near' if shift < 0 else 'far'}: {words}"
-    return Finding(bool(right), expected, f"it stood {worst:.2f} m from the wall", explanation=why)
+    right = bool(abs(worst - wanted) <= tolerance)
+    return Finding(right, expected, f"it stood {worst:.2f} m from the wall", explanation="" if right else why)
+
+
+def _why_deaf(recording):
+    """Return which two ends of /wall or /cmd_vel do not connect: one asks for more than the other offers."""
+    takes = [(e["node"], e["topic"], e) for e in _ends(recording, "subscription", RANGE)]
+    for each in bridges(recording):
+        if each.ros_topic == COMMANDS and each.subscription_qos is not None:
+            takes.append(("the bridge", COMMANDS, vars(each.subscription_qos)))
+    for node, topic, wanted in takes:
+        for end in _ends(recording, "publisher", topic=topic):
+            for policy, strong, weak in (
+                ("reliability", "RELIABLE", "BEST_EFFORT"),
+                ("durability", "TRANSIENT_LOCAL", "VOLATILE"),
+            ):
+                if wanted[policy] == strong and end[policy] == weak:
+                    return (
+                        f"{node} asks for the {policy} {strong} on {topic}, and {end['node']} offers {weak}: not one "
+                        "message arrives"
+                    )
+    return ""
+
+
+def _why_still(recording):
+    """Return what the logs and the messages say about a cart that does not drive."""
+    heard, commands = (len(recording.signal(f"topics/{name}")) for name in ("wall/range", "cmd_vel/count"))
+    said = [match for line in recording.lines("log/student") if (match := WARNING.match(line.text))]
+    ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
+    if not heard:
+        why = "the ranger published no distance on /wall: it waits without end, or drops every scan"
+        return f"{why}; it warned: {ranger}" if ranger else why
+    if not commands:
+        return (
+            f"the driver got {heard} distances and published no command: one of its callbacks hangs, and waits for "
+            "what only another callback of the node could bring"
+        )
+    return ""
+
+
+def _why_there(recording, times, away, wanted):
+    """Return which misconception the distances on /wall, or the commands on /cmd_vel, fit."""
+    measured, command = recording.signal("topics/wall/range"), recording.signal("topics/cmd_vel/linear/x")
+    if not len(measured):
+        return ""
+    truth = np.interp(measured.times, times, away)
+    if said := MISCONCEPTIONS["of_a_distance"](measured.values, truth, MOUNT[0]):
+        return f"{said} (/wall, ranger_node.py)"
+    if not len(command):
+        return ""
+    before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
+    known = before >= 0
+    said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
+    return f"{said} (/cmd_vel, driver_node.py)" if said else ""

@@ -1,10 +1,14 @@
 """Is the last map on /map a map of the rooms, and has the robot seen them without touching anything?
 
 The truth is computed from the shapes of the world in the recording, from the simulator's poses of the robot, and from
-the scans as they were sent. Wrong maps are compared with those of common misconceptions.
+the scans as they were sent. Wrong maps are compared with those of common misconceptions; `driving.py` says what is
+wrong with the way of a robot.
 """
 
+import runpy
 from math import hypot
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -28,6 +32,7 @@ LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
 MOVED = 0.3  # [m]
 MARGIN = 0.003  # [m] between the robot and what it does not touch
 MAP = "topics/map"
+DRIVING = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("driving.py"))))
 
 
 def info(recording, name):
@@ -86,13 +91,27 @@ def layout(recording, parameters):
         "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
         f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
         f"info.resolution is {size:g}, it is in metres": abs(size - RESOLUTION) < 1e-4,
-        f"info.origin is ({x:g}, {y:g}), the corner of the first cell is at (-5, -4)": hypot(x - LEFT, y - BOTTOM)
-        < 1e-3,
+        f"info.origin is ({x:g}, {y:g}), {other_origin(x, y)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
         "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
         f"data has {number} numbers": number == WIDTH * HEIGHT,
     }
     wrong = [words for words, holds in right.items() if not holds]
     return Finding(not wrong, expected, seen, explanation="; ".join(wrong))
+
+
+def other_origin(x, y):
+    """Return what an origin [m] is instead of the corner of the first cell."""
+    right = "the corner of the first cell is at (-5, -4)"
+    for (other_x, other_y), words in (
+        ((LEFT / RESOLUTION, BOTTOM / RESOLUTION), "which is in cells; in metres "),
+        ((0.0, 0.0), "so it is not set, or the corner is taken for the middle; "),
+        ((-LEFT, -BOTTOM), "which is the opposite corner; "),
+        ((BOTTOM, LEFT), "x and y are exchanged; "),
+        ((LEFT + RESOLUTION / 2, BOTTOM + RESOLUTION / 2), "which is the middle of the first cell; "),
+    ):
+        if hypot(x - other_x, y - other_y) < 1e-3:
+            return words + right
+    return right
 
 
 def walls(recording, parameters):
@@ -109,7 +128,13 @@ def walls(recording, parameters):
     measured = f"{share:.0%} of {wanted.sum()} cells with hits are occupied"
     if share >= WALLS:
         return Finding(True, expected, measured)
-    return Finding(False, expected, measured, round(at, 3), explanation=why(recording, said, scan))
+    words = why(recording, said, scan) or DRIVING.unclear(said, wanted)
+    words = words or DRIVING.walls_missing(said, wanted, grid(recording, -10)[0] if many_maps(recording) else None)
+    return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def many_maps(recording):
+    return len(recording.arrays(f"{MAP}/data")[0]) >= 20
 
 
 def no_ghosts(recording, parameters):
@@ -187,6 +212,9 @@ def free(recording, parameters):
             words = "cells behind the hits are free: a ray says nothing about what is behind its hit"
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
         words = f"cells that rays passed have values above {FREE}"
+    if not words and share < SEEN:
+        ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
+        words = DRIVING.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
@@ -216,7 +244,10 @@ def explored(recording, parameters):
     words = ""
     if driven < MOVED:
         words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
-        words += ": it saw what can be seen from its start"
+        more = DRIVING.stands(recording)
+        words += f" ({more})" if more else ": it saw what can be seen from its start"
+    elif there < wanted and (lost := DRIVING.slow_or_lost(recording)):
+        words = lost
     elif there < wanted and (stood := standing(recording)):
         words = stood
     elif there < wanted:
@@ -260,6 +291,8 @@ def touches_nothing(recording, parameters):
     first = int(np.argmax(touching))
     name, at = names[int(distances[:, first].argmin())], float(x.times[first] / 1e9)
     words = f"the robot ran into {name} at {at:.1f} s, at ({x.values[first]:.1f}, {y.values[first]:.1f})"
+    point = DRIVING.nearest_point(shapes(recording), (x.values[first], y.values[first]))
+    words += f"; {DRIVING.touched(recording, parameters['radius'], x.times[first], point)}"
     measured = f"it touched something in {touching.sum()} of {len(touching)} moments"
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 

@@ -39,7 +39,16 @@ def diagnosis() -> Diagnosis:
     """Explain runs by what the submission's bridges publish; the exercise's own node is never blamed."""
     from gz_course.grader.score import diagnosis as looks
 
-    return looks.Diagnosis(outcome, (looks.cannot_run, too_much, looks.unstable))
+    return looks.Diagnosis(outcome, (unreadable, too_much, looks.unstable))
+
+
+def unreadable(recording: Recording, facts: dict[str, Any]) -> str:
+    """Return why nothing can be made of the file, and what was mistaken in it."""
+    from gz_course.grader.score.bridge_errors import bridge_meaning
+    from gz_course.grader.score.diagnosis import cannot_run
+
+    why = bridge_meaning(str(facts.get("fault") or ""))
+    return f"{facts['fault']}. What that means: {why}." if why else cannot_run(recording, facts)
 
 
 def outcome(recording: Recording) -> str:

@@ -9,26 +9,46 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import unreached
+from gz_course.grader.lint import (
+    action_servers,
+    angles,
+    callbacks,
+    names,
+    no_effect,
+    not_what_they_seem,
+    parameters,
+    scan_callbacks,
+    searches,
+    sequences,
+    time_units,
+    transforms,
+    unreached,
+    waiting,
+)
+from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
-CREATE = {"create_timer": 1, "create_subscription": 2}  # method -> position of its callback
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 Place = tuple[int, str]
 
 
-def slips(content: bytes) -> Places:
-    """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python."""
-    return places_in(content, _places)
+def slips(content: bytes, duration: float = LONGEST_PERIOD) -> Places:
+    """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python.
+
+    `duration` [s] is the length of the run.
+    """
+    return places_in(content, lambda tree: _places(tree, duration))
 
 
-def _places(tree: ast.Module) -> Places:
-    found = [place for look in (*LOOKS, *unreached.LOOKS) for place in look(tree)]
+def _places(tree: ast.Module, duration: float) -> Places:
+    found = [*periods(tree, duration)]
+    for room in ROOMS:
+        found += [place for look in room for place in look(tree)]
     return [{"line": line, "said": said} for line, said in found[:MOST]]
 
 
@@ -73,39 +93,41 @@ def not_called(tree: ast.AST) -> Iterator[Place]:
                 yield node.lineno, f"{name} without brackets names the function and does not call it: {name}(...)"
 
 
-def periods(tree: ast.AST) -> Iterator[Place]:
+def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
+    """Find a timer whose period [s] is longer than `longest`, or 0 because whole numbers were divided."""
+    known = named_numbers(tree)
     for call, name in _calls(tree):
-        if name == "create_timer" and call.args and isinstance(call.args[0], ast.Constant):
-            period = call.args[0].value
-            if isinstance(period, int | float) and period >= LONGEST_PERIOD:
-                yield (
-                    call.lineno,
-                    f"the timer's period is in seconds: create_timer({period!r}, ...) fires for the first time after "
-                    f"{period / 60:.0f} minutes; {period:g} ms are {period / 1000:g}",
-                )
-
-
-def called_callbacks(tree: ast.AST) -> Iterator[Place]:
-    """Find a callback that is called where it should be handed over."""
-    for call, name in _calls(tree):
-        place = CREATE.get(name)
-        given = call.args[place] if place is not None and len(call.args) > place else None
-        given = next((each.value for each in call.keywords if each.arg == "callback"), given)
-        if isinstance(given, ast.Call) and not given.args and place is not None:
-            function = ast.unparse(given.func)
-            if function.startswith("self.") or isinstance(given.func, ast.Name):
-                yield (
-                    call.lineno,
-                    f"{function}() calls the function at once and hands over what it returns; the callback itself is "
-                    f"{function}, without brackets",
-                )
+        given = (
+            call.args[0] if call.args else next((k.value for k in call.keywords if k.arg == "timer_period_sec"), None)
+        )
+        period = number(given, known)
+        if name != "create_timer" or period is None or given is None:
+            continue
+        code = ast.unparse(given)
+        value = f"{code}, which is {period:g}," if not isinstance(given, ast.Constant) else f"{code},"
+        if period >= LONGEST_PERIOD:
+            yield (
+                call.lineno,
+                f"the timer's period is in seconds: create_timer({value} ...) fires for the first time after "
+                f"{period / 60:.0f} minutes; {period:g} ms are {period / 1000:g}",
+            )
+        elif period > longest:
+            yield (
+                call.lineno,
+                f"the timer's period is in seconds, not in calls per second: create_timer({value} ...) fires for the "
+                f"first time after {period:g} s, when the run of {longest:g} s is over; {period:g} times per second "
+                f"are create_timer({1 / period:g}, ...)",
+            )
+        elif period == 0 and "//" in code:
+            yield call.lineno, f"{code} is 0, because // leaves out the fraction: / divides numbers"
 
 
 def decimal_commas(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         values: list[ast.expr] = []
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
-            values = node.value.elts if isinstance(node.targets[0], ast.Name | ast.Attribute) else []
+            bare = node.value.col_offset == node.value.elts[0].col_offset if node.value.elts else False  # no brackets
+            values = node.value.elts if bare and isinstance(node.targets[0], ast.Name | ast.Attribute) else []
         elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("create_timer") and len(node.args) >= 3:
             values = node.args[:2]
         if _two_whole(values):
@@ -168,13 +190,13 @@ def stray_methods(tree: ast.AST) -> Iterator[Place]:
 
 def blocking(tree: ast.AST) -> Iterator[Place]:
     """Find an endless loop, or a Rate, inside a callback: while it runs, no other callback and no clock does."""
-    callbacks = set()
-    for call, name in _calls(tree):
-        place = CREATE.get(name)
-        if place is not None and len(call.args) > place:
-            callbacks.add(ast.unparse(call.args[place]).rpartition(".")[2])
+    handed = {
+        ast.unparse(given).rpartition(".")[2]
+        for call, given in callbacks.handed_over(tree)
+        if ast.unparse(call.func).endswith((".create_timer", ".create_subscription"))
+    }
     for node in ast.walk(tree):
-        if not isinstance(node, ast.FunctionDef) or node.name not in callbacks:
+        if not isinstance(node, ast.FunctionDef) or node.name not in handed:
             continue
         rates = [call for call, name in _calls(node) if name == "create_rate"]
         for inner in ast.walk(node):
@@ -210,6 +232,11 @@ def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
 
 
 LOOKS = (
-    constructors, main_not_called, called_callbacks, periods, not_called, decimal_commas, sets_for_numbers,
+    constructors, main_not_called, not_called, decimal_commas, sets_for_numbers,
     strings_with_braces, strengths, stray_methods, blocking, waits_for_transforms,
+)  # fmt: skip
+ROOMS = (
+    LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
+    parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
+    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
 )  # fmt: skip

@@ -19,7 +19,7 @@ def called(node: ast.AST) -> list[str]:
     return [ast.unparse(each.func).rpartition(".")[2] for each in ast.walk(node) if isinstance(each, ast.Call)]
 
 
-def _blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
+def blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
     for node in ast.walk(tree):
         for name in ("body", "orelse", "finalbody"):
             block = getattr(node, name, None)
@@ -36,7 +36,7 @@ def _call(statement: ast.stmt) -> str:
 
 def behind_spin(tree: ast.AST) -> Iterator[Place]:
     """Find what is called behind spin(), also in the `finally` of a `try` that spins."""
-    for block in _blocks(tree):
+    for block in blocks(tree):
         spins = [i for i, statement in enumerate(block) if _spins(statement)]
         after = block[spins[0] + 1 :] if spins else []
         for each in block:
@@ -57,7 +57,7 @@ def _spins(statement: ast.stmt) -> bool:
 
 
 def behind_return(tree: ast.AST) -> Iterator[Place]:
-    for block in _blocks(tree):
+    for block in blocks(tree):
         ends = [
             i for i, each in enumerate(block) if isinstance(each, ast.Return | ast.Raise | ast.Continue | ast.Break)
         ]
@@ -136,7 +136,7 @@ def _changes(node: ast.AST, name: str) -> bool:
 
 def one_callback_of_two(tree: ast.AST) -> Iterator[Place]:
     """Find two timers of one block with the same callback."""
-    for block in _blocks(tree):
+    for block in blocks(tree):
         seen: dict[str, int] = {}
         for statement in block:
             for call in [node for node in ast.walk(statement) if isinstance(node, ast.Call) and len(node.args) == 2]:
@@ -150,7 +150,7 @@ def one_callback_of_two(tree: ast.AST) -> Iterator[Place]:
 
 def ended_before(tree: ast.AST) -> Iterator[Place]:
     """Find a publish() behind the call that ends ROS or the node, in one block."""
-    for block in _blocks(tree):
+    for block in blocks(tree):
         ends = [i for i, each in enumerate(block) if _call(each).rpartition(".")[2] in ENDS]
         for statement in block[ends[0] + 1 :] if ends else ():
             if "publish" in called(statement):

@@ -1,4 +1,4 @@
-"""The places where a Python file assigns a whole number or a text to a floating-point field of a message.
+"""The places where a Python file assigns what is no float to a floating-point field: a whole number, a text.
 
 rclpy does not convert the value, and without ROS_PYTHON_CHECK_FIELDS=1 it does not complain either: `twist.linear.x =
 1` is sent as 0, and so is "0.5". Kinds of submissions that are Python record these places as facts of a run; the
@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from gz_course.grader.errors import ManifestError
+from gz_course.grader.lint.numpy_numbers import numpy_numbers
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 5  # places reported at most
@@ -64,6 +65,7 @@ def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str,
         isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in ast.walk(tree)
     )
     paths = {path for owner in fields.values() for path in owner if "." in path or (len(owner) == 1 and not others)}
+    yield from numpy_numbers(tree)
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign | ast.AnnAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]

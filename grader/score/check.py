@@ -27,6 +27,7 @@ from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
+from gz_course.grader.score.explanations.answers import Explanation
 from gz_course.grader.score.explanations.commands import WantedDrive
 from gz_course.sim.did_you_mean import did_you_mean
 
@@ -48,7 +49,8 @@ class Finding:
 
     `gated` marks a check that failed only because its gate did: another check gives the reason. `timing` marks a check
     that, if it failed, saw the right thing at the wrong time or for the wrong time: perhaps a node reads another clock.
-    `explanation` names the misconception that fits what was seen; empty if none does.
+    `explanation` names the misconception that fits what was seen; empty if none does. `answers` is the same with all
+    that fit, where others about the same scans may tell which of them is meant.
     """
 
     passed: bool
@@ -59,6 +61,7 @@ class Finding:
     gated: bool = False
     timing: bool = False
     explanation: str = ""
+    answers: Explanation | None = None
 
 
 Kind = Callable[[Recording, Table], Finding]

@@ -5,7 +5,6 @@ The evidence are the facts in the recording: the node's endpoints, how its proce
 
 from __future__ import annotations
 
-import re
 import signal
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -14,11 +13,11 @@ from typing import Any
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.crash import read_crash
 from gz_course.grader.score.launched import launch_fault
 from gz_course.grader.score.python_errors import meaning
+from gz_course.grader.score.source_places import stands_before
 from gz_course.sim.did_you_mean import nearest_name
-
-FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 
 # What a program did that was ended for breaking a limit.
 LIMITS = {
@@ -84,10 +83,11 @@ def diagnose(recording: Recording, looks: Iterable[Look]) -> str:
 
 
 def whole_number_fault(recording: Recording, findings: Iterable[Finding] = ()) -> str:
-    """Return one sentence about a float field that was assigned a whole number or a text; empty if there is none."""
+    """Return one sentence about a float field that was assigned what is no float; empty if there is none."""
     for place in recording.facts().get("whole_numbers", []):
+        kind = f" (it is an {place['type']} of NumPy)" if place.get("type") else ""
         return shown(
-            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float, but the "
+            f"{place['file']}, line {place['line']}: {place['field']} = {place['value']} is no float{kind}, but the "
             "field holds one; rclpy does not convert it and sends 0: write a number with a point, or float(...)."
         )
     return ""
@@ -131,30 +131,13 @@ def died(recording: Recording, facts: dict[str, Any]) -> str:
     if facts.get("hid"):
         return f"Your node's process closed the descriptors it was started with {when}; it was ended and not followed."
     lines = [line.text for line in recording.lines("log/student")]
-    starts = [i for i, line in enumerate(lines) if line.startswith(("Traceback (most recent", '  File "'))]
-    if code > 0 and starts:
-        # The last block that begins a traceback; a syntax error found at run time has no first line.
-        begin = max((i for i in starts if lines[i].startswith("Traceback")), default=starts[0])
-        error, places = _read_traceback(lines[begin:])
-        file = str(recording.properties("run").get("submission"))
-        mine = [place for place in places if place[0] == file] or places
-        place = f" ({mine[-1][0]}, line {mine[-1][1]})" if mine else ""
-        if error:
-            advice = f" What that means: {said}." if (said := meaning(error)) else ""
-            return shown(f"Your node died {when} with {error}{place}.{advice}")
+    crash = read_crash(lines, str(recording.properties("run").get("submission"))) if code > 0 else None
+    if crash is not None:
+        place = f" ({crash.place})" if crash.place else ""
+        advice = shown(f" What that means: {said}.") if (said := crash.meaning) else ""
+        return f"{shown(f'Your node died {when} with {crash.error}{place}.')}{advice}"
     how = f"was killed by {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
     return f"Your node's process {how} {when}, before the exercise was over."
-
-
-def _read_traceback(lines: list[str]) -> tuple[str, list[tuple[str, str]]]:
-    """Return the first line of the error a traceback ends in, and the (file name, line) of each frame."""
-    places = []
-    for line in lines:
-        if match := FRAME.match(line):
-            places.append((match.group(1).rpartition("/")[2], match.group(2)))
-        elif line and not line.startswith((" ", "Traceback")):
-            return line, places
-    return "", places
 
 
 def _signal_name(number: int) -> str:
@@ -270,7 +253,8 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
                     f"had published anything on {topic}. rclpy.spin(node) keeps a node alive; rclpy.spin_once(node) "
                     "waits for one event only."
                 )
-            return f"Your node has a publisher on {topic} but never published a message{_unheard(facts)}."
+            said = f"Your node has a publisher on {topic} but never published a message{_unheard(facts)}."
+            return f"{said} {stands_before(facts, topic)}".strip()
     return ""
 
 

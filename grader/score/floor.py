@@ -177,6 +177,13 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ("the first ray is taken for the one ahead: its angle is angle_min", heading + angles - angles[0]),
         ("the rays are drawn in the opposite order: angles grow to the left", heading - angles),
         ("orientation.z is taken for the heading: it is the sine of half of it", np.sin(heading / 2) + angles),
+        ("the heading is half of what it is: it is 2 * atan2(orientation.z, orientation.w)", heading / 2 + angles),
+        ("the heading is added two times", 2 * heading + angles),
+        ("orientation.w is taken for the heading: it is the cosine of half of it", np.cos(heading / 2) + angles),
+        (
+            "angle_max is taken for the angle of the first ray: it is angle_min",
+            heading + angles - angles[0] + angles[-1],
+        ),
     ):
         yield words, hits(scan, angles=direction)
     yield "sine and cosine are exchanged", hits(scan, angles=np.pi / 2 - heading - angles)

@@ -7,8 +7,43 @@ from __future__ import annotations
 
 import re
 
+# Module of each name that launch files import.
+MODULES = {
+    "launch": ("LaunchDescription", "LaunchService"),
+    "launch.actions": (
+        "DeclareLaunchArgument", "EmitEvent", "ExecuteProcess", "GroupAction", "IncludeLaunchDescription", "LogInfo",
+        "OpaqueFunction", "RegisterEventHandler", "SetEnvironmentVariable", "SetLaunchConfiguration", "Shutdown",
+        "TimerAction",
+    ),
+    "launch.conditions": ("IfCondition", "LaunchConfigurationEquals", "UnlessCondition"),
+    "launch.event_handlers": ("OnProcessExit", "OnProcessIO", "OnProcessStart", "OnShutdown"),
+    "launch.launch_description_sources": ("PythonLaunchDescriptionSource", "AnyLaunchDescriptionSource"),
+    "launch.substitutions": (
+        "Command", "EnvironmentVariable", "FindExecutable", "LaunchConfiguration", "PathJoinSubstitution",
+        "PythonExpression", "TextSubstitution", "ThisLaunchFileDir",
+    ),
+    "launch_ros.actions": ("Node", "PushRosNamespace", "SetParameter", "SetRemap", "SetUseSimTime"),
+    "launch_ros.parameter_descriptions": ("ParameterFile", "ParameterValue"),
+    "launch_ros.substitutions": ("FindPackageShare", "FindPackagePrefix"),
+    "ament_index_python.packages": ("get_package_share_directory",),
+    "pathlib": ("Path",),
+}  # fmt: skip
+NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) '(\w+)'")
+
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
+    (
+        re.compile(
+            r"Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'"
+        ),
+        "{0} is handed over as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another "
+        "type of it",
+    ),
+    (
+        re.compile(r"(?:float|int)\(\) argument must be .*LaunchConfiguration"),
+        "a LaunchConfiguration has no value while the description is made, so Python cannot convert it: "
+        "ParameterValue(..., value_type=float) converts it when the launch runs",
+    ),
     (
         re.compile(r"missing required argument '([^']+)'"),
         "an argument without default_value must be given in every call: DeclareLaunchArgument('{0}', "
@@ -17,6 +52,46 @@ MEANINGS = (
     (
         re.compile(r"launch configuration '([^']+)' does not exist"),
         "no action before this one declares {0}: it needs a DeclareLaunchArgument of the same name, above what uses it",
+    ),
+    (
+        re.compile(
+            r"(?:unsupported operand|can only concatenate|argument must be|PathLike object).*LaunchConfiguration"
+        ),
+        "a LaunchConfiguration has no value while the description is made, so Python cannot join it with anything: "
+        "PathJoinSubstitution([...]) joins the parts of a path when the launch runs, and a list joins texts",
+    ),
+    (
+        re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
+        "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
+        "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is handed over",
+    ),
+    (
+        re.compile(r": package '[\w-]+' not found(?!.*did you mean)"),
+        "only what is built and installed is a package, and none of this name is. A file beside the launch file is "
+        "reached by Path(__file__).parent, and a Python file is started by its path",
+    ),
+    (
+        re.compile(r"(?:False|True|\d+(?:\.\d+)?|None) is of type (?:bool|int|float|NoneType); text"),
+        "values of launch arguments are texts: default_value='false', in quotes",
+    ),
+    (
+        re.compile(r"the Python expression '.*' fails with NameError: name '(true|false)' is not defined"),
+        "the value of an argument is put into the expression as it was typed, and Python writes True and False: use "
+        "IfCondition or UnlessCondition, or compare in quotes, [\"'\", value, \"' == 'true'\"]",
+    ),
+    (
+        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type '\w+', expecting type 'INTEGER'"),
+        "a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', "
+        "1.0), with a point, takes any number",
+    ),
+    (
+        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'"),
+        "{0} is handed over as a whole number, and the node wants one with a point, such as 1.0",
+    ),
+    (
+        re.compile(r"ParameterAlreadyDeclared.*'use_sim_time'"),
+        "every node declares use_sim_time itself; it is set where the node is started, parameters=[{{'use_sim_time': "
+        "True}}], and not declared again",
     ),
     (
         re.compile(r"Unknown substitution command \[(\w+)"),
@@ -39,7 +114,7 @@ MEANINGS = (
         "the file is no valid XML: every tag that begins must end, <link ...> with </link>",
     ),
     (
-        re.compile(r"No such file or directory: '(\w+ [^']*)'"),
+        re.compile(r"(?:No such file or directory: |there is no program )'([\w/.-]+ [^']*)'"),
         "the whole command line is one word of the list: cmd takes each word by itself, ['gz', 'sim', ...]",
     ),
 )
@@ -47,6 +122,17 @@ MEANINGS = (
 
 def launch_meaning(error: str) -> str:
     """Return what to change, given the text of an error; empty if it is unknown."""
+    if match := NOT_IMPORTED.search(error):
+        module = next((module for module, names in MODULES.items() if match[1] in names), "")
+        what = (
+            f"{match[1]} comes from another module"
+            if "ImportError" in error
+            else f"the import of {match[1]} is missing"
+        )
+        if module:
+            return f"{what}: from {module} import {match[1]}"
+        if match[1] in ("math", "os", "sys"):
+            return what
     for pattern, words in MEANINGS:
         if match := pattern.search(error):
             return words.format(*match.groups())

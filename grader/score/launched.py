@@ -7,13 +7,18 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.crash import Crash, read_crash
 from gz_course.grader.score.launch_errors import launch_meaning
+from gz_course.grader.score.python_errors import meaning
+
+if TYPE_CHECKING:
+    from gz_course.grader.score.check import Finding
 
 SAID = re.compile(r"^\[[^\]]+\] (gz sim|parameter_bridge|create|gzserver): (.*)")
 STARTED = re.compile(r"^\[INFO\] \[[^\]]+-\d+\]: process started with pid")
@@ -22,21 +27,37 @@ DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-
 ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
 # A file that was given by a relative path and not found, as the bridge and Python say it (Python adds its folder).
 NO_FILE = re.compile(r"(?:^|: |open file ')((?:/(?!submission)\w+/)?[\w.-]+\.\w+)'?: .*No such file or directory")
+OF_A_FILE = re.compile(r"([\w.-]+\.py)/[\w./-]+'?: .*Not a directory")
+NOT_STARTED = re.compile(r"^\[ERROR\] \[[^\]]+-\d+\]: (.*(?:there is no program '|cannot be started).*)")
+GLUED = re.compile(r"argument (-\w): ignored explicit argument '([^']+)'")
+NO_WORLD = re.compile(r"^world file '([^']+)' was not found")
 PLACE = re.compile(r"^\S*?([^/\s:]+):(\d+)(?::(\d+))?: ")  # prefix of an error in a launch file; XML has columns
 
 
 @dataclass(frozen=True)
 class Death:
-    """A process of the launch that ended by itself with an exit code other than 0, and the last line it wrote."""
+    """A process of the launch that ended by itself with an exit code other than 0, and why.
+
+    `said` is the error its traceback ends in, else the last line it wrote.
+    """
 
     process: str  # its name in the launch, without its number: that of the executed program
     code: int
     said: str
+    crash: Crash | None = None
 
     @property
     def words(self) -> str:
         """Its output as the end of a sentence; empty if it printed nothing."""
-        return f"; it said: {shown(self.said, 300)}" if self.said else ""
+        place = f" ({self.crash.place})" if self.crash and self.crash.place else ""
+        return f"; it said: {shown(self.said, 300)}{place}" if self.said else ""
+
+    @property
+    def why(self) -> str:
+        """What to change, and where; empty if the error is unknown."""
+        known = self.crash.meaning if self.crash else meaning(self.said)
+        why = looked_elsewhere(self.said) or known or launch_meaning(self.said)
+        return f"{self.crash.place}: {why}" if why and self.crash and self.crash.place else why
 
 
 def launch_facts(recording: Recording) -> dict[str, Any]:
@@ -90,17 +111,83 @@ def logged_error(recording: Recording, process: str) -> str:
 
 def deaths(recording: Recording) -> Iterator[Death]:
     """Yield the processes that died by themselves, in the order of their ends."""
-    last: dict[str, str] = {}
+    output: dict[str, list[str]] = {}
     for line in recording.lines("log/student"):
         if match := DIED.match(line.text):
             if int(match.group(2)) > 0:
-                yield Death(match.group(1).rpartition("-")[0], int(match.group(2)), last.get(match.group(1), ""))
+                lines = output.get(match.group(1), [])
+                crash = read_crash(lines)
+                said = crash.error if crash else next(reversed(lines), "")
+                yield Death(match.group(1).rpartition("-")[0], int(match.group(2)), said, crash)
         elif match := OUTPUT.match(line.text):
-            last[match.group(1)] = match.group(2)
+            output.setdefault(match.group(1), []).append(match.group(2))
+
+
+def not_started(recording: Recording, findings: Iterable[Finding] = ()) -> str:
+    """Return one sentence about the first program that could not be started; empty if all could."""
+    for line in recording.lines("log/student"):
+        if match := NOT_STARTED.match(line.text):
+            said = PLACE.sub(_place_in_words, match.group(1))
+            why = launch_meaning(said)
+            return shown(f"{said}. What that means: {why}." if why else f"{said}.", 500)
+    return ""
+
+
+def launch_slips(recording: Recording, findings: Iterable[Finding] = ()) -> str:
+    """Return one sentence about a mistake in the launch file that raises no error of its own; empty if none is."""
+    for place in recording.facts().get("launch_slips", []):
+        return shown(f"{place['file']}, line {place['line']}: {place['said']}.", 500)
+    return ""
+
+
+def simulator_fault(said: str, recording: Recording) -> str:
+    """Return what is wrong with the command line of a `gz sim`, given what it said; empty if that is unknown."""
+    if (match := GLUED.search(said)) and match[2].startswith(" "):
+        return f"{match[1]}{match[2]} is one word, with spaces in it: each word of a command is an item of its own"
+    if match:
+        return (
+            f"a space is missing between {match[1]} and {match[2]}: what is joined to one text, as the parts of "
+            "gz_args are, is joined without spaces"
+        )
+    if not (match := NO_WORLD.search(said)):
+        return ""
+    given = match[1]
+    folder, _, name = given.rpartition("/")
+    names = {place["name"] for place in recording.facts().get("declared", [])}
+    if " object at 0x" in given:
+        return "the description of a Python object stands in the command, not the value of a launch configuration"
+    if given in names:
+        return f"'{given}' is a text; the value of the argument is LaunchConfiguration('{given}')"
+    trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
+    asked = str(trial.get("parameters", {}).get("world", ""))
+    if folder and (name == asked or f" {name}" in said or not asked):
+        return (
+            f"{name} is looked for in the folder {folder}, and it is not there: the worlds of the course are built in, "
+            "and are named without a folder"
+        )
+    return ""
+
+
+def declared(recording: Recording, name: str, default: str) -> str:
+    """Return that the launch file declares no argument of this name, or one with another default; else nothing."""
+    places = recording.facts().get("declared", [])
+    names = [place["name"] for place in places]
+    mine: dict[str, Any] = next((place for place in places if place["name"] == name), {})
+    given, _ = argument(recording, name, "")
+    if mine.get("default", "") and not given and mine["default"].lower() != default.lower():
+        return (
+            f"{mine['file']}, line {mine['line']}: the default_value of {name} is '{mine['default']}', not '{default}'"
+        )
+    if not names or name in names or "" in names:
+        return ""
+    others = ", ".join(each for each in names)
+    return f"the launch file declares no argument called {name}; it declares {shown(others, 100)}"
 
 
 def looked_elsewhere(said: str) -> str:
     """Return why a file was not found, given what a program said of it; empty if it said nothing of that kind."""
+    if match := OF_A_FILE.search(said):
+        return f"{match[1]} is the launch file itself, not a folder: its folder is Path(__file__).parent"
     if not (match := NO_FILE.search(said)):
         return ""
     name = match.group(1).rpartition("/")[2]
@@ -121,7 +208,10 @@ def launch_fault(recording: Recording) -> str:
     if error := facts.get("error", ""):
         said = "The launch failed: " + shown(PLACE.sub(_place_in_words, error), 400)
         why = launch_meaning(error)
-        return f"{said}{'' if said.endswith(('.', '?')) else '.'} What that means: {why}." if why else said
+        if why:
+            said += f"{'' if said.endswith(('.', '?')) else '.'} What that means: {why}."
+        slip = launch_slips(recording)
+        return f"{said}{'' if said.endswith(('.', '?')) else '.'} {slip}" if slip else said
     if facts and not facts["running"] and facts["exit_code"]:
         return f"The launch itself ended with exit code {facts['exit_code']}."
     return ""

@@ -19,6 +19,13 @@ def parameter_not_set(recording: Recording, facts: dict[str, Any]) -> str:
             said = f"was refused, because the node has not declared that parameter: {_declaration(each)} in __init__"
         elif each["outcome"] == "refused":
             said = f"was refused: {each['reason']}" if each["reason"] else "was refused, without a reason"
+            if "invalid type" in each["reason"]:
+                said += (
+                    ". The function given to add_on_set_parameters_callback must return "
+                    "SetParametersResult(successful=True), of rcl_interfaces.msg; it returns something else, or nothing"
+                )
+            elif "Wrong parameter type" in each["reason"]:
+                said += f". The type of a parameter is that of its first value: {_declaration(each)} in __init__"
         elif nodes and each["node"] not in nodes:
             said = (
                 f"found no node of that name; yours is {nodes[0]}: the name is the argument of Node's __init__, "

@@ -6,7 +6,14 @@ Only errors with a certain cause are listed: a wrong guess is worse than none.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
+from gz_course.grader.score.explanations.of_errors import libraries
+from gz_course.grader.score.explanations.of_errors.imports import import_fault, unknown_name
+from gz_course.grader.score.explanations.of_errors.node_interface import arguments, attributes, own_arguments
+from gz_course.grader.score.explanations.of_errors.operands import calls, lists, operands
+from gz_course.grader.score.explanations.of_errors.syntax import syntax
+from gz_course.grader.score.explanations.of_errors.values import impossible
 from gz_course.sim.did_you_mean import nearest_name
 
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
@@ -16,7 +23,7 @@ MEANINGS = (
         "a method gets the object itself as its first argument: def {0}(self)",
     ),
     (
-        re.compile(r"TypeError: \w+\.(?!__)(\w+)\(\) takes 1 positional argument but 2 were given"),
+        re.compile(r"TypeError: (?!Node\b)\w+\.(?!__)(\w+)\(\) takes 1 positional argument but 2 were given"),
         "a method gets the object itself and then what it is called with, a callback its message: "
         "def {0}(self, message)",
     ),
@@ -46,7 +53,8 @@ MEANINGS = (
     ),
     (
         re.compile(
-            r"AttributeError: '(\w+)' object has no attribute '_(?:default_callback_group|logger|clock|parameters)'"
+            r"AttributeError: '(\w+)' object has no attribute "
+            r"'_(?:default_callback_group|logger|clock|parameters|parameter_overrides|Node__\w+)'"
         ),
         "super().__init__('NODE_NAME') must come first in {0}.__init__: it makes the node",
     ),
@@ -69,10 +77,6 @@ MEANINGS = (
         "publish() sends messages only: make a {0}(), fill in its fields, and publish that",
     ),
     (
-        re.compile(r"ModuleNotFoundError: No module named '(?:rospy|roslib|tf|actionlib)'"),
-        "that belongs to ROS 1; in ROS 2 a node imports rclpy",
-    ),
-    (
         re.compile(r"ImportError: cannot import name '(\w+)' from '(\w+_msgs)'"),
         "message types are in the module {1}.msg: from {1}.msg import {0}",
     ),
@@ -83,15 +87,6 @@ MEANINGS = (
     (
         re.compile(r"AttributeError: 'Time' object has no attribute '(?:seconds|secs|sec|to_sec|nanosec)'"),
         "in seconds it is time.nanoseconds / 1e9; seconds_nanoseconds() gives both parts",
-    ),
-    (
-        re.compile(r"TypeError: '[<>]=?' not supported between instances of '(?:Duration|int|float)' and '(\w+)'"),
-        "compare a Duration with a Duration, Duration(seconds=5.0) of rclpy.duration, or its .nanoseconds / 1e9 with a "
-        "number",
-    ),
-    (
-        re.compile(r"TypeError: unsupported operand type\(s\) for [-+]: '(?:float|int|Time)' and '(?:float|int|Time)'"),
-        "a Time minus a Time is a Duration, whose .nanoseconds / 1e9 are seconds; numbers and Times do not mix",
     ),
     (
         re.compile(r"TypeError: bad argument type for built-in operation"),
@@ -151,7 +146,10 @@ MEANINGS = (
         "{0} is called on the class, not on an object: self.{0}() inside of the class",
     ),
     (
-        re.compile(r"TypeError: \w+\.(?!__|create_|info|log)(\w+)\(\) missing 1 required positional argument: '(\w+)'"),
+        re.compile(
+            r"TypeError: (?!Node\b|Publisher\b)\w+\.(?!__|create_|info|log)(\w+)\(\) missing 1 required positional "
+            r"argument: '(\w+)'"
+        ),
         "a timer calls its callback without arguments, a subscription with the message: def {0}(self) is one for a "
         "timer, def {0}(self, {1}) one for a subscription",
     ),
@@ -191,11 +189,6 @@ MEANINGS = (
         "{1} has no message of that name; capitals count, as in LaserScan, and ros2 interface package lists the names",
     ),
     (
-        re.compile(r"TypeError: 'NoneType' object is not callable"),
-        "a callback is handed over without brackets, self.on_timer; self.on_timer() calls it at once and hands over "
-        "None",
-    ),
-    (
         re.compile(r"AttributeError: '(?:function|method|builtin_function_or_method)' object has no attribute '(\w+)'"),
         "brackets are missing: what stands before .{0} must be called, as in self.get_logger().info(...)",
     ),
@@ -205,12 +198,9 @@ MEANINGS = (
         "rclpy.time.Time.from_msg(stamp) makes a Time of it",
     ),
     (
-        re.compile(r"TypeError: unsupported operand type\(s\) for -: '(?:Time|float|int)' and 'NoneType'"),
-        "the start has not been set when it is subtracted: set it, if it is None, before",
-    ),
-    (
-        re.compile(r"TypeError: unsupported operand type\(s\) for [-+]: 'NoneType'|'NoneType' object has no attribute"),
-        "a variable is None: it was never set, or it holds the result of a function that returns nothing",
+        re.compile(r"'NoneType' object has no attribute '(\w+)'"),
+        "what stands before .{0} is None: it was never set, or not yet (no message has come), or it is the result of a "
+        "function that returns nothing",
     ),
     (
         re.compile(
@@ -234,30 +224,25 @@ MEANINGS = (
         "a function that assigns to {0} has a {0} of its own; what is to last is kept as self.{0}",
     ),
     (
-        re.compile(
-            r"NameError: name '(Twist|LaserScan|String|Float32|Odometry|Node|rclpy|math|Duration|np)' is not defined"
-        ),
-        "the import of {0} is missing",
-    ),
-    (
         re.compile(r"NameError: name 'self' is not defined"),
         "the method has no parameter self, or the line stands outside of a method",
     ),
     (
-        re.compile(r"NameError: name '(\w+)' is not defined"),
-        "no variable or function of that name exists here; what belongs to the node is reached with self.{0}",
-    ),
-    (
         re.compile(
             r"AttributeError: '(?!(?:Twist|LaserScan|String|Float\d+|Odometry|Vector3|Header|Subscription|Publisher|"
-            r"Timer|Clock|Time|Duration|Parameter|Point|Quaternion|Pose|Image|Imu|Range|Buffer)')(?=[A-Z])(\w+)' "
+            r"Timer|Clock|Time|Duration|Parameter|Point|Quaternion|Pose|Image|Imu|Range|Buffer|Future|Client|Service|"
+            r"ServerGoalHandle|ClientGoalHandle|ROSClock|RcutilsLogger|Node|QoSProfile|Executor|Transform|\w+Stamped|"
+            r"\w+Executor|OccupancyGrid|MapMetaData|Path|CameraInfo|PointCloud2|JointState|CvBridge|Bool|U?Int\d+|Thread|"
+            r"Action\w+|\w+_Request|\w+_Response|\w+_Goal|\w+_Result|\w+_Feedback|TransformListener)')"
+            r"(?=[A-Z])(\w+)' "
             r"object has no attribute '(\w+)'"
         ),
         "self.{1} is not set when it is used: set it in __init__ before timers and callbacks, spelt the same way",
     ),
     (
         re.compile(r"TypeError: can only concatenate str|TypeError: must be str, not"),
-        "a number becomes a part of a text in an f-string: f'{{value:.2f}}'",
+        "one side is a text, such as '3': int(text) or float(text) makes a number of it; a number becomes a part of "
+        "a text in an f-string: f'{{value:.2f}}'",
     ),
     (
         re.compile(r"IndentationError: unexpected indent"),
@@ -276,7 +261,7 @@ MEANINGS = (
 )
 
 
-# Fields of the messages that beginners meet first, for misspelt ones.
+# Fields of the messages that beginners meet, for misspelt ones. Source: the packages of common_interfaces.
 FIELDS = {
     "LaserScan": (
         "header", "angle_min", "angle_max", "angle_increment", "time_increment", "scan_time", "range_min", "range_max",
@@ -286,7 +271,40 @@ FIELDS = {
     "Vector3": ("x", "y", "z"),
     "Odometry": ("header", "child_frame_id", "pose", "twist"),
     "Header": ("stamp", "frame_id"),
-    "String": ("data",), "Float32": ("data",), "Float64": ("data",),
+    "String": ("data",), "Float32": ("data",), "Float64": ("data",), "Bool": ("data",), "Int32": ("data",),
+    "Int64": ("data",), "UInt8": ("data",), "UInt32": ("data",),
+    "Point": ("x", "y", "z"), "Quaternion": ("x", "y", "z", "w"), "Pose": ("position", "orientation"),
+    "PoseStamped": ("header", "pose"), "PointStamped": ("header", "point"),
+    "TransformStamped": ("header", "child_frame_id", "transform"), "Transform": ("translation", "rotation"),
+    "TwistStamped": ("header", "twist"), "PoseWithCovariance": ("pose", "covariance"),
+    "TwistWithCovariance": ("twist", "covariance"),
+    "Imu": (
+        "header", "orientation", "orientation_covariance", "angular_velocity", "angular_velocity_covariance",
+        "linear_acceleration", "linear_acceleration_covariance",
+    ),
+    "Image": ("header", "height", "width", "encoding", "is_bigendian", "step", "data"),
+    "CameraInfo": ("header", "height", "width", "distortion_model", "d", "k", "r", "p"),
+    "OccupancyGrid": ("header", "info", "data"),
+    "MapMetaData": ("map_load_time", "resolution", "width", "height", "origin"),
+    "JointState": ("header", "name", "position", "velocity", "effort"),
+}  # fmt: skip
+# What is looked for one level too high.
+INSIDE = {
+    ("Odometry", "position"): "pose.pose.position", ("Odometry", "orientation"): "pose.pose.orientation",
+    ("Odometry", "linear"): "twist.twist.linear", ("Odometry", "angular"): "twist.twist.angular",
+    ("Odometry", "x"): "pose.pose.position.x", ("Odometry", "y"): "pose.pose.position.y",
+    ("PoseWithCovariance", "position"): "pose.position", ("PoseWithCovariance", "orientation"): "pose.orientation",
+    ("PoseWithCovariance", "x"): "pose.position.x", ("PoseWithCovariance", "y"): "pose.position.y",
+    ("TwistWithCovariance", "linear"): "twist.linear", ("TwistWithCovariance", "angular"): "twist.angular",
+    ("Pose", "x"): "position.x", ("Pose", "y"): "position.y", ("Twist", "x"): "linear.x", ("Twist", "z"): "angular.z",
+    ("Odometry", "stamp"): "header.stamp", ("LaserScan", "stamp"): "header.stamp", ("Imu", "stamp"): "header.stamp",
+    ("TransformStamped", "translation"): "transform.translation",
+    ("TransformStamped", "rotation"): "transform.rotation",
+    ("PoseStamped", "position"): "pose.position", ("PointStamped", "x"): "point.x", ("PointStamped", "y"): "point.y",
+    ("OccupancyGrid", "resolution"): "info.resolution", ("OccupancyGrid", "width"): "info.width",
+    ("OccupancyGrid", "height"): "info.height", ("OccupancyGrid", "origin"): "info.origin",
+    ("OccupancyGrid", "frame_id"): "header.frame_id", ("Transform", "x"): "translation.x",
+    ("LaserScan", "frame_id"): "header.frame_id",
 }  # fmt: skip
 NO_FIELD = re.compile(r"AttributeError: '(\w+)' object has no attribute '(\w+)'")
 
@@ -300,14 +318,27 @@ def _field(error: str) -> str:
     known = FIELDS[kind]
     if near := nearest_name(name, known) or (known[0] if len(known) == 1 else ""):
         return f"the field of a {kind} is called {near}"
+    if path := INSIDE.get((kind, name)):
+        return f"a {kind} has the fields {', '.join(known)}; {name} is in .{path}"
     return f"a {kind} has the fields {', '.join(known)}"
 
 
-def meaning(error: str) -> str:
-    """Return what to change, given the first line of an error as Python prints it; empty if unknown."""
+LOOKS: tuple[Callable[[str, str], str], ...] = (
+    syntax, import_fault, attributes, arguments, own_arguments, operands, lists, calls, unknown_name,
+)  # fmt: skip
+
+
+def meaning(error: str, code: str = "") -> str:
+    """Return what to change, given the first line of an error as Python prints it; empty if unknown.
+
+    `code` is the line of the program at the end of the traceback.
+    """
+    for look in LOOKS:
+        if said := look(error, code):
+            return said
     if said := _field(error):
         return said
-    for pattern, words in MEANINGS:
+    for pattern, words in (*libraries.MEANINGS, *MEANINGS):
         if match := pattern.search(error):
             return words.format(*match.groups())
-    return ""
+    return impossible(error, code)

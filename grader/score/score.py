@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
 from gz_course.grader.score.diagnosis import diagnose, silent
+from gz_course.grader.score.explanations.answers import agreed
+from gz_course.grader.score.source_places import made_in
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT = Finding(False, "a run that nobody tampers with", "not counted: the run was tampered with")
@@ -54,7 +56,7 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     elif outcome == "tamper":  # what was forged may be nothing that a check can read
         findings = [SPOILT] * len(specs)
     else:
-        findings = perform_all(specs, recording, exercise.folder)
+        findings = _agreed(perform_all(specs, recording, exercise.folder))
     checks = tuple(map(CheckResult, specs, findings))
     failed = [check for check in checks if not check.finding.passed]
     if outcome == "timeout" and not failed:
@@ -69,9 +71,19 @@ def score(recording: Recording, exercise: Exercise) -> Score:
         other = next((check for check in failed if check.finding.explanation and not check.finding.gated), None)
         if other is not None and not why:
             remarks.append(f"{other.spec.title}: {other.finding.explanation}.")
-        said = f"{worst.spec.title}: {f'{why} ({seen})' if why else seen}. {worst.spec.hint}"
-        diagnosis = " ".join(filter(None, (*remarks, said)))
+        said = f"{worst.spec.title}: {f'{why} ({seen})' if why else seen}."
+        where = "" if why or any(remarks) else made_in(recording.facts())
+        diagnosis = " ".join(filter(None, (*remarks, said, where, worst.spec.hint)))
     return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
+
+
+def _agreed(findings: list[Finding]) -> list[Finding]:
+    """Explain wrong answers to several questions about the same scans by what fits most of them."""
+    told = [i for i, finding in enumerate(findings) if finding.answers is not None]
+    explanations = agreed([answers for finding in findings if (answers := finding.answers) is not None])
+    for i, each in zip(told, explanations, strict=True):
+        findings[i] = replace(findings[i], explanation=str(each), answers=each)
+    return findings
 
 
 def truth_sha256(recording: Recording, robot: str) -> str:

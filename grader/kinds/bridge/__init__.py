@@ -7,6 +7,7 @@ ignores are ignored here too; a file from which no bridge can be made is the stu
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -20,9 +21,11 @@ if TYPE_CHECKING:
     from gz_course.grader.submission import Submission
     from gz_course.sim.ros_gz_bridge.config import Config
     from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
+    from gz_course.sim.ros_gz_bridge.finding import Finding
 
 NODE = "ros_gz_bridge"  # name of the bridge's node; `~` in a ROS name stands for it
 MOST_BRIDGES = 100
+KEY = re.compile(r"[\w/~.-]+:")
 
 
 def read(name: str, content: bytes) -> Config:
@@ -40,8 +43,23 @@ def fault(name: str, content: bytes) -> str | None:
     config = read(name, content)
     if len(config.topics) > MOST_BRIDGES:
         return f"{name}: {len(config.topics)} bridges; at most {MOST_BRIDGES} are run here"
-    errors = [finding for finding in config.findings if not finding.warning]
-    return shown(str(errors[0])) if errors and not usable(config) else None
+    errors = sorted(filter(lambda finding: not finding.warning, config.findings), key=_follows)
+    return shown(f"{errors[0]}{_below(content, str(errors[0]))}") if errors and not usable(config) else None
+
+
+def _follows(finding: Finding) -> bool:
+    """Whether a finding is likely to follow from another one: a key is missing because it is misspelt."""
+    return finding.sentence.endswith("both ros_type_name and gz_type_name")
+
+
+def _below(content: bytes, error: str) -> str:
+    """Return the end of a sentence on what stands above the bridges in a file that is no list; else nothing."""
+    if "found a mapping" not in error:
+        return ""
+    if b"ros__parameters" in content:
+        return "; this is no file of ROS parameters, so there is no ros__parameters in it"
+    first = next((line for line in content.decode("utf-8", "replace").splitlines() if KEY.match(line)), "")
+    return f"; here, all stands below keys such as {first.partition(':')[0].strip()!r}" if first else ""
 
 
 def usable(config: Config) -> list[BridgeEntry]:
@@ -75,7 +93,8 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         }
         for finding in config.findings
     ]
-    return RunPlan(EXERCISE_NODE, exercise_node(exercise), usable(config), {"lint": found})
+    lazy = [_ros_name(entry.ros_topic) for entry in config.tolerant().topics if entry.lazy]
+    return RunPlan(EXERCISE_NODE, exercise_node(exercise), usable(config), {"lint": found, "lazy": lazy})
 
 
 KIND = Kind((".yaml", ".yml"), fault, plan, node_command, run_loop, diagnosis, brings_bridge=True)

@@ -7,11 +7,14 @@ manifest). The `parameters` of a trial are its arguments: `parameters = { paused
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
+from gz_course.grader.lint.launch_files import launch_places
+from gz_course.grader.lint.slips import slips
+from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
@@ -31,10 +34,22 @@ def fault_of(name: str, content: bytes) -> str | None:
 
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
-    """Run the launch file, with what comes with the exercise beside it."""
+    """Run the launch file, with what comes with the exercise beside it; record suspicious places as facts."""
     own = (*exercise.parts, MANIFEST)
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
-    return RunPlan(submission.main, submission.files | {path.name: path.read_bytes() for path in beside})
+    files = submission.files | {path.name: path.read_bytes() for path in beside}
+    return RunPlan(submission.main, files, facts=_places(submission))
+
+
+def _places(submission: Submission) -> dict[str, list[dict[str, Any]]]:
+    """Return what the linters find, by kind, with the name of the file."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for name, content in submission.files.items():
+        if name.endswith(".py"):
+            places = launch_places(content) if name == submission.main else {"slips": slips(content)}
+            for kind, each in places.items():
+                found.setdefault(kind, []).extend({"file": shown(name)} | place for place in each)
+    return {kind: places for kind, places in found.items() if places}
 
 
 def command(program: Path, trial: Trial) -> list[str]:
@@ -61,11 +76,12 @@ def diagnosis() -> Diagnosis:
     """Explain runs by what the launch said and how it ended."""
     from gz_course.grader.score import diagnosis as looks
     from gz_course.grader.score.clocks import clock_fault
+    from gz_course.grader.score.launched import launch_slips, not_started
 
     return looks.Diagnosis(
         looks.outcome_of,
         (looks.cannot_run, looks.broke_a_limit, looks.launch_failed, looks.out_of_time, looks.unstable),
-        (clock_fault,),
+        (launch_slips, not_started, looks.slips, clock_fault),
     )
 
 

@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
+from gz_course.grader.lint.transforms import lookups
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
@@ -68,7 +71,11 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
-        "slips": slips(content),
+        "conditions": conditions(content),
+        "origins": origins(content),
+        "lookups": lookups(content),
+        "slips": slips(content, exercise.duration),
+        "suspects": suspects(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
         "whole_numbers": whole_numbers(content, float_fields(heard)),
@@ -90,6 +97,8 @@ def diagnosis() -> Diagnosis:
     """Explain runs by the student's node: possible faults in the order in which one would look for them."""
     from gz_course.grader.score import diagnosis as looks
     from gz_course.grader.score.clocks import clock_fault
+    from gz_course.grader.score.crash import survived
+    from gz_course.grader.score.lost_numbers import lost_number
     from gz_course.grader.score.parameters_set import parameter_not_set
 
     return looks.Diagnosis(
@@ -110,7 +119,7 @@ def diagnosis() -> Diagnosis:
             parameter_not_set,
             looks.unstable,
         ),
-        (looks.slips, looks.whole_number_fault, clock_fault, looks.too_early),
+        (looks.slips, survived, looks.whole_number_fault, lost_number, clock_fault, looks.too_early),
     )
 
 

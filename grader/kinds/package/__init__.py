@@ -62,6 +62,9 @@ def run_loop() -> type[RunLoop]:
 def diagnosis() -> Diagnosis:
     """Explain runs by the package first, then by the student's node."""
     from gz_course.grader.score import diagnosis as looks
+    from gz_course.grader.score.action_errors import execute_raised
+    from gz_course.grader.score.crash import survived
+    from gz_course.grader.score.lost_numbers import lost_number
 
     return looks.Diagnosis(
         outcome,
@@ -74,10 +77,12 @@ def diagnosis() -> Diagnosis:
             looks.slip,
             looks.died,
             looks.ended_early,
+            execute_raised,
+            looks.never_spun,
             looks.out_of_time,
             looks.unstable,
         ),
-        (looks.slips, looks.whole_number_fault),
+        (looks.slips, survived, looks.whole_number_fault, lost_number),
     )
 
 

@@ -64,10 +64,22 @@ def read(name: str, content: bytes) -> list[dict[str, Any]]:
     if root is None or (isinstance(root, yaml.ScalarNode) and not root.value):
         raise TableError(1, "the table is empty; each row begins with '- ros_topic:'")
     if not isinstance(root, yaml.SequenceNode):
-        raise TableError(_line(root), "expected a list of rows; begin each row with '- '")
+        raise TableError(_line(root), f"expected a list of rows; begin each row with '- '{_found(root)}")
     if len(root.value) > MOST_ROWS:
         raise TableError(1, f"{len(root.value)} rows, more than the {MOST_ROWS} a table may have")
     return [_row(node) for node in root.value]
+
+
+def _found(root: yaml.Node) -> str:
+    """Return the end of a sentence on what a file holds that is no list of rows."""
+    import yaml
+
+    if not isinstance(root, yaml.MappingNode) or not isinstance(root.value[0][0], yaml.ScalarNode):
+        return ""
+    key = shown(str(root.value[0][0].value), 60)
+    if key in COLUMNS:
+        return ", as in '- ros_topic: /clock'"
+    return f". Here, everything stands below keys, such as {key!r}; a row has no name of its own"
 
 
 def _row(node: yaml.Node) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from typing import Any
 
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.bridge_errors import bridge_meaning
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import bridges
 
@@ -24,9 +25,10 @@ def bridge_lint(recording: Recording, parameters: Table) -> Finding:
     found = recording.facts().get("lint", [])
     expected = "lint finds neither an error nor a warning"
     faults = [finding for finding in found if not finding.get("advice")]
-    for finding in sorted(faults, key=lambda finding: bool(finding["warning"])):
+    for finding in sorted(faults, key=lambda finding: (bool(finding["warning"]), "is missing" in finding["sentence"])):
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
-        return Finding(False, expected, f"{'warning' if finding['warning'] else 'error'} in {_told(finding)}{more}")
+        measured = f"{'warning' if finding['warning'] else 'error'} in {_told(finding)}{more}"
+        return Finding(False, expected, measured, explanation=bridge_meaning(finding["sentence"]))
     carried = sum(bridge.to_ros + bridge.to_gz > 0 for bridge in bridges(recording))
     if carried < least:
         measured = f"only {carried} of your bridges carried a message, so there was little to check"

@@ -9,6 +9,8 @@ at_least = 10             # messages that must have passed, so that doing nothin
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
@@ -31,14 +33,22 @@ def bridge_qos(recording: Recording, parameters: Table) -> Finding:
         offer = bridge.publisher_qos
         assert offer is not None
         if not low <= offer.depth <= high:
-            other = any("'subscriber_queue' changes" in each["sentence"] for each in recording.facts().get("lint", []))
-            why = (
-                "subscriber_queue is the queue of a bridge that listens in ROS; this one publishes there"
-                if other
-                else ""
-            )
+            why = _why(recording, topic, (low, high))
             measured = f"{bridge.place}: {topic} keeps {offer.depth} messages (publisher_queue)"
             return Finding(False, expected, measured, explanation=why)
         if reliability and offer.reliability != reliability:
             return Finding(False, expected, f"{bridge.place}: {topic} is offered as {offer.reliability}")
     return Finding(True, expected, "so it does")
+
+
+def _why(recording: Recording, topic: str, depth: Sequence[float]) -> str:
+    """Return what was taken for the number of messages that a bridge keeps; empty if nothing was."""
+    facts = recording.facts()
+    if any("'subscriber_queue' changes" in each["sentence"] for each in facts.get("lint", [])):
+        return "subscriber_queue is the queue of a bridge that listens in ROS; this one publishes there"
+    if topic in facts.get("lazy", []):
+        return "lazy opens a bridge only while somebody listens; it says nothing about how many messages are kept"
+    for other in bridges(recording):
+        if other.ros_topic != topic and other.publisher_qos and depth[0] <= other.publisher_qos.depth <= depth[1]:
+            return f"{other.place}: {other.ros_topic} keeps so few; asked is {topic}"
+    return ""

@@ -42,7 +42,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
     if not candidates:
         died = next((each for each in deaths(recording) if each.process == "parameter_bridge"), None)
         if died is not None and not made:
-            why = looked_elsewhere(died.said)
+            why = died.why
             measured = f"parameter_bridge ended with exit code {died.code}{died.words}"
             return Finding(False, expected, measured, explanation=why)
         said = logged_error(recording, "parameter_bridge")
@@ -96,7 +96,8 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
     typo = "it is nearly right, look at its spelling: " if near else ""
-    return f"nobody in Gazebo {does} {bridge.gz_topic}; {typo}gz topic -l lists the topics there are"
+    name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""
+    return f"nobody in Gazebo {does} {bridge.gz_topic}{name}; {typo}gz topic -l lists the topics there are"
 
 
 def _why(wanted: dict[str, str]) -> str:

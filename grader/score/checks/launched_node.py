@@ -10,7 +10,7 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import by_python, deaths, launch_facts, looked_elsewhere
+from gz_course.grader.score.launched import by_python, deaths, launch_facts
 from gz_course.sim.did_you_mean import nearest_name
 
 _OTHERS = ("gz", "parameter_bridge", "create")  # processes that are not nodes of the student's
@@ -27,11 +27,15 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
     if ended:
         code = ended[0]["code"]
         died = [each for each in deaths(recording) if each.code == code and not each.process.startswith(_OTHERS)]
-        said, why = (died[0].words, looked_elsewhere(died[0].said)) if len(died) == 1 else ("", "")
+        said, why = (died[0].words, died[0].why) if len(died) == 1 else ("", "")
         measured = f"{program} had ended with exit code {code} before the launch was interrupted{said}"
         return Finding(False, expected, measured, explanation=why)
     if node not in nodes:
         near = nearest_name(node, nodes)
+        other = next((each for each in deaths(recording) if not each.process.startswith(_OTHERS)), None)
+        if other is not None:
+            measured = f"the node {node} never ran: {other.process} ended with exit code {other.code}{other.words}"
+            return Finding(False, expected, measured, explanation=other.why)
         return Finding(False, expected, f"the node {node} never ran" + (f"; {near} did" if near else ""))
     if measured := by_python(recording, program):
         return Finding(False, expected, measured)

@@ -12,14 +12,15 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import argument, ran
+from gz_course.grader.score.launched import argument, declared, ran
 
 
 @check_kind("launched_paused")
 def launched_paused(recording: Recording, parameters: Table) -> Finding:
     """Pass if no simulated time passed when a paused world was asked for, and some did when not."""
     default = "true" if parameters.flag("default") else "false"
-    wanted, called = argument(recording, parameters.text("argument"), default)
+    name = parameters.text("argument")
+    wanted, called = argument(recording, name, default)
     pause = wanted.strip().lower() in ("true", "1")
     running = ran(recording)
     expected = f"{called}: the world {'is paused' if pause else 'runs'}"
@@ -29,4 +30,5 @@ def launched_paused(recording: Recording, parameters: Table) -> Finding:
     state = "was paused" if found else "ran"
     if found == running[0]["paused"]:
         state += ": gz sim had no -r" if found else ": gz sim had -r"
-    return Finding(found == pause, expected, f"{called} it {state}")
+    why = "" if found == pause else declared(recording, name, default)
+    return Finding(found == pause, expected, f"{called} it {state}", explanation=why)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import by_python, complaint, launch_facts, ran, started
+from gz_course.grader.score.launched import by_python, complaint, launch_facts, ran, simulator_fault, started
 
 
 @check_kind("launched_simulator")
@@ -25,7 +25,8 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
             measured = "the launch was at work for so long before it started anything that it was not waited for"
             why = "a Command in it (such as xacro), or its own Python, takes far too long or never ends"
             return Finding(False, expected, measured, explanation=why)
-        return Finding(False, expected, f"gz sim said: {said}" if said else "no simulator was started")
+        measured = f"gz sim said: {said}" if said else "no simulator was started"
+        return Finding(False, expected, measured, explanation=simulator_fault(said, recording))
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)
         return Finding(

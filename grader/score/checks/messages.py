@@ -61,7 +61,7 @@ def messages(recording: Recording, parameters: Table) -> Finding:
         measured += f"; it said {_quoted(texts[0])}" if len(times) == 1 else f"; the first said {_quoted(texts[0])}"
     why = ""
     if not passed and says is not None:
-        why = next((said for text in texts if (said := difference(text or "", says))), "")
+        why = next((said for text in texts if text is not None and (said := difference(text, says))), "")
     elif not passed and window is not None:
         why = wrong_moment(times, (window[0], window[1]))
     elif not passed and counts.sum() > most:

@@ -4,7 +4,8 @@ r"""`per_scan`: is every scan answered with the right number?
     scan = "lidar/scan"
     statistic = "minimum"     # valid_count | minimum | mean of the valid ranges
     tolerance = 0.011
-    log = 'min=(\S+?)m'       # the answer is the first group of this pattern in a line of the node's logger, or
+    log = 'min=(\S+?)m'       # the answer is the first group of this pattern in a line of the node's logger,
+    line = "min=1.23m"        # of which this is an example (optional), or
     signal = "topics/nearest_obstacle/data"    # the answer is a message
     at_least = 0.95           # of all scans
 
@@ -28,9 +29,11 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import log_lines, not_logged
-from gz_course.grader.score.explanations.answers import Asked, Scans, explain
+from gz_course.grader.score.explanations.answers import Asked, Explanation, Scans, explain
+from gz_course.grader.score.explanations.texts import line_difference
 
 LONGEST_LINE = 120  # [characters] of a line that is quoted
+LINES = 6  # without an answer, that are compared with the line that is asked for
 
 STATISTICS: dict[str, Callable[[np.ndarray], float]] = {
     "valid_count": lambda valid: float(len(valid)),
@@ -80,16 +83,20 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     tolerance, share = parameters.number("tolerance"), parameters.number("at_least", 0.95)
     topic = parameters.text("scan")
     asked = scans(recording, topic, what)
+    others: list[str] = []
+    printed, odd, example = "", "", ""
     if parameters.has("signal"):
         signal = parameters.text("signal")
-        given, printed, other, odd = _messages(recording, signal), "", "", ""
+        given = _messages(recording, signal)
         not_finite = len(recording.signal(f"{signal}/not_finite"))
         where = f"on {signal}"
     else:
-        given, other, odd = _log_answers(recording, parameters.pattern("log"))
+        given, others, odd = _log_answers(recording, parameters.pattern("log"))
+        example = parameters.text("line") if parameters.has("line") else ""
         printed = not_logged(recording, parameters.pattern("log"))
         not_finite = 0
         where = "in the node's log"
+    other = others[0] if others else ""
     expected = f"{what.replace('_', ' ')} of every scan {where}, within {tolerance:g}"
     right, unanswered, wrong = 0, 0, ""
     times = [time for time, _ in given]
@@ -123,8 +130,10 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     why = explain(_asked(recording, topic, what, tolerance, asked, given + [(float(t), np.nan) for t in infinite]))
     if odd:
         comma = ", a decimal comma" if re.fullmatch(r"-?\d+,\d+", odd) else ""
-        why = f"{shown(odd, 40)!r} in the log is no number{comma}: a number has digits and a decimal point"
-    return Finding(False, expected, measured + wrong, at, explanation=why)
+        why = Explanation(f"{shown(odd, 40)!r} in the log is no number{comma}: a number has digits and a decimal point")
+    if others and not given and example and (differs := line_difference(others, example)):
+        why = Explanation(shown(differs, 300).replace("{}", ""))
+    return Finding(False, expected, measured + wrong, at, explanation=str(why), answers=why)
 
 
 def _asked(
@@ -136,6 +145,10 @@ def _asked(
     first = np.searchsorted(times, [scan.start for scan in asked])
     answered = np.array([i < len(given) and given[i][0] < scan.end for i, scan in zip(first, asked, strict=True)])
     values = np.array([given[i][1] if there else np.nan for i, there in zip(first, answered, strict=True)])
+    after = np.searchsorted(times, [scan.end for scan in asked])
+    last = np.array([given[i - 1][1] if there else np.nan for i, there in zip(after, answered, strict=True)])
+    parts = [[value for _, value in given[i:j]] for i, j in zip(first, after, strict=True)]
+    spread = np.array([max(part) - min(part) if part else 0.0 for part in parts])
 
     def limit(name: str, otherwise: float) -> np.ndarray:
         values = recording.signal(f"topics/{topic}/{name}").values
@@ -156,6 +169,9 @@ def _asked(
             limit("angle_min", -np.pi),
             limit("angle_max", np.pi),
         ),
+        last,
+        after - first,
+        spread,
     )
 
 
@@ -165,18 +181,20 @@ def _messages(recording: Recording, name: str) -> list[tuple[float, float]]:
     return list(zip((signal.times / 1e9).tolist(), signal.values.tolist(), strict=True))
 
 
-def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], str, str]:
-    """Return all answers in the log, the first line without an answer, and the first answer that is no number."""
-    answers, other, odd = [], "", ""
+def _log_answers(recording: Recording, pattern: re.Pattern[str]) -> tuple[list[tuple[float, float]], list[str], str]:
+    """Return all answers in the log, the first lines without an answer, and the first answer that is no number."""
+    answers: list[tuple[float, float]] = []
+    others: list[str] = []
+    odd = ""
     for at, text, logged in log_lines(recording):
         if not logged:
             continue
         if match := pattern.search(text):
             answers.append((at, _number(match.group(1))))
             odd = odd or (match.group(1) if np.isnan(answers[-1][1]) and match.group(1).lower() != "nan" else "")
-        else:
-            other = other or text
-    return answers, other, odd
+        elif len(others) < LINES:
+            others.append(text)
+    return answers, others, odd
 
 
 def _number(text: str) -> float:

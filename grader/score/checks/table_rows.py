@@ -11,6 +11,7 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.diagnosis import OWN_TOPICS
+from gz_course.grader.score.explanations.tables import missing_rows
 from gz_course.grader.score.graphs import links
 from gz_course.sim.did_you_mean import nearest_name
 
@@ -33,7 +34,8 @@ def table_rows(recording: Recording, parameters: Table) -> Finding:
     missing = [topic for topic in wanted if topic not in named]
     if missing:
         more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-        return Finding(False, expected, f"there is no row for {missing[0]}{more}")
+        why = missing_rows(missing, links(recording), facts.get("ros_topics", {}))
+        return Finding(False, expected, f"there is no row for {missing[0]}{more}", explanation=why)
     return Finding(True, expected, f"{len(rows)} rows")
 
 
@@ -48,5 +50,7 @@ def _why(topic: str, times: int, wanted: list[str], facts: dict) -> str:
         if any(bridge["gz_topic"] == topic for bridge in facts["bridges"]):
             return f"{topic} is what Gazebo calls it; in ROS it has another name, which bridge.yaml says"
         return f"{topic} is a topic of Gazebo alone; no bridge takes it to ROS"
+    if f"/{topic}" in wanted:
+        return f"the name of the topic begins with a slash: /{topic}"
     near = "; it is nearly right: look at its spelling" if nearest_name(topic, wanted, 0.8) else ""
     return f"there is no topic {topic} in ROS{near}"

@@ -9,12 +9,16 @@ registered with the words that end the sentence "your answers are ...":
 A prediction with a number in it returns `Named`, with words that name the number.
 
 A notice is a function that looks at which questions were answered and returns a sentence itself (`@notices`).
+
+What fits the answers to one question may not fit those to another about the same scans: `agreed` keeps the predictions
+that fit most of them.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import warnings
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -67,7 +71,8 @@ class Asked:
     """Questions with their true answers and those that were given: one row a question.
 
     `answered` marks questions with an answer; `given` is NaN where there is none, or where the answer was no finite
-    number and nothing more is known of it.
+    number and nothing more is known of it. `given` is the first answer to each question, `last` the last one, `number`
+    how many there were, `spread` how far they are apart.
     """
 
     statistic: str  # name of what is asked for, such as `minimum`
@@ -78,6 +83,9 @@ class Asked:
     tolerance: float
     of: Callable[[np.ndarray], float] = field(default=lambda valid: float(valid.min()))  # the statistic of valid ranges
     scans: Scans | None = None
+    last: np.ndarray | None = None
+    number: np.ndarray | None = None
+    spread: np.ndarray | None = None
 
     @property
     def unknown(self) -> np.ndarray:
@@ -144,6 +152,46 @@ def notices(function: Notice) -> Notice:
     return function
 
 
+@dataclass(frozen=True)
+class Cause:
+    """A prediction that fits: its rank, its words, which may hold a number, and the name of its function."""
+
+    rank: int
+    words: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """A sentence without its full stop; `{}` in it stands for the causes that are named.
+
+    `causes` are all that fit.
+    """
+
+    sentence: str = ""
+    causes: tuple[Cause, ...] = ()
+
+    def __str__(self) -> str:
+        return self.sentence.replace("{}", ", or ".join(self.named))
+
+    @property
+    def named(self) -> list[str]:
+        likely = [cause.words for cause in self.causes if cause.rank < LAST]
+        return (likely or [cause.words for cause in self.causes])[:MOST]
+
+
+def agreed(explanations: Sequence[Explanation]) -> list[Explanation]:
+    """Keep in each explanation the causes that fit most of them, if one fits several: the others fit by chance."""
+    times = Counter(name for each in explanations for name in {cause.name for cause in each.causes})
+    most = max(times.values(), default=1)
+    if most < 2:
+        return list(explanations)
+    kept = [tuple(cause for cause in each.causes if times[cause.name] == most) for each in explanations]
+    return [
+        dataclasses.replace(each, causes=causes or each.causes) for each, causes in zip(explanations, kept, strict=True)
+    ]
+
+
 @cache
 def _load() -> None:
     from gz_course.grader.score.explanations import of_answers
@@ -151,43 +199,50 @@ def _load() -> None:
     modules(of_answers)
 
 
-def explain(asked: Asked) -> str:
+def explain(asked: Asked) -> Explanation:
     """Return which misconceptions fit the answers, as the beginning of a sentence; empty if none does."""
     _load()
-    said = next(filter(None, (notice(asked) for notice in _notices)), "")
+    said = next(filter(None, (notice(asked) for notice in _notices)), "").replace("{}", "")
     wrong = asked.answered & ~_equal(asked.given, asked.truth, asked.tolerance)
-    if asked.answered.sum() < FEWEST or not wrong.any():
-        return said
+    if asked.answered.sum() < FEWEST or not wrong.any() or _differing(asked):
+        return Explanation(said)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore", RuntimeWarning)  # such as the mean of no ranges, which is NaN
-        found = _fitting(asked, wrong)
-        told = f"your answers are {', or '.join(found)}" if found else _where_wrong(asked, wrong)
+        causes = _fitting(asked, wrong)
+        told = "your answers are {}"
+        if not causes:
+            told, causes = _where_wrong(asked, wrong)
     both = (said, told) if told.startswith("where") else (told, said)
-    return "; ".join(filter(None, both))
+    return Explanation("; ".join(filter(None, both)), tuple(causes))
 
 
-def _fitting(asked: Asked, wrong: np.ndarray) -> list[str]:
-    """Return the words of the predictions that fit, at most `MOST`."""
-    found: list[str] = []
+def _differing(asked: Asked) -> bool:
+    """Return whether most questions have several answers, and not the same ones."""
+    return asked.spread is not None and bool(np.mean(asked.spread[asked.answered] > asked.tolerance) > 0.5)
+
+
+def _fitting(asked: Asked, wrong: np.ndarray) -> list[Cause]:
+    """Return the predictions that fit."""
+    found: list[Cause] = []
     for rank, words, only, prediction in sorted(_predictions, key=lambda each: each[0]):
         if only and asked.statistic not in only:
             continue
-        if rank == LAST and found:
-            break
+        if rank == LAST and len(found) == 1 and np.isfinite(asked.given[asked.answered]).any():
+            break  # it need not be told from others, as an infinite answer must
         predicted = prediction(asked)
         if not isinstance(predicted, Named):
             predicted = Named(words, predicted)
         if _fits(asked, wrong, np.asarray(predicted.answers, dtype=float)):
-            found.append(predicted.words)
-    return found[:MOST]
+            found.append(Cause(rank, predicted.words, prediction.__name__))
+    return found
 
 
-def _where_wrong(asked: Asked, wrong: np.ndarray) -> str:
+def _where_wrong(asked: Asked, wrong: np.ndarray) -> tuple[str, list[Cause]]:
     """Explain wrong answers among right ones: say where they are, and what they are if that is known."""
     known = np.flatnonzero(asked.answered)
     amiss = wrong[known]
     if not FEWEST <= amiss.sum() <= MOST_WRONG * len(amiss):
-        return ""
+        return "", []
     first, last = np.flatnonzero(amiss)[[0, -1]]
     where = "where they are wrong,"
     if amiss[first:].all():
@@ -196,8 +251,8 @@ def _where_wrong(asked: Asked, wrong: np.ndarray) -> str:
         where = f"right from {asked.times[known[last + 1]]:.2f} s on; before, they are"
     found = _fitting(dataclasses.replace(asked, answered=wrong), wrong)
     if where.startswith("where"):
-        return f"{where} your answers are {', or '.join(found)}" if found else ""
-    return f"your answers are {where} {', or '.join(found) if found else 'wrong'}"
+        return (f"{where} your answers are {{}}", found) if found else ("", [])
+    return f"your answers are {where} {'{}' if found else 'wrong'}", found
 
 
 def _equal(given: np.ndarray, wanted: np.ndarray, tolerance: float) -> np.ndarray:

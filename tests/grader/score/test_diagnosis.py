@@ -3,6 +3,7 @@
 import pytest
 
 from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.score.crash import survived
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
 
 LOOKS = find_kind("node").diagnosis().looks
@@ -69,7 +70,8 @@ def test_an_exception_with_its_place_in_the_students_file(told):
     assert told(exit_code=1, exit_at=1.25, lines=["[INFO] [t]: hi", *TRACE]) == (
         "student_error",
         "Your node died at 1.25 s of simulated time with ZeroDivisionError: division by zero "
-        "(teleop_node.py, line 24).",
+        "(teleop_node.py, line 24: speed = 1 / 0). What that means: the divisor is 0 here: of a list that may be "
+        "empty, len() is asked first; time that has passed may be 0 in the first call.",
     )
 
 
@@ -77,9 +79,19 @@ def test_an_error_whose_words_do_not_say_what_to_change_is_explained(told):
     error = "TypeError: Hello.say_hello() takes 0 positional arguments but 1 was given"
     _, sentence = told(lines=[*TRACE[:-1], error], exit_code=1, exit_at=1.5, submission="teleop_node.py")
     assert sentence.endswith(
-        f"with {error} (teleop_node.py, line 24). What that means: a method gets the object itself as its first "
-        "argument: def say_hello(self)."
+        f"with {error} (teleop_node.py, line 24: speed = 1 / 0). What that means: a method gets the object itself as "
+        "its first argument: def say_hello(self)."
     )
+
+
+def test_an_error_after_which_the_node_went_on(record):
+    said = survived(record({}, facts=BASE, lines=[(0.5, line) for line in TRACE], submission="teleop_node.py"))
+    assert said.startswith(
+        "An error was caught, and your node went on: ZeroDivisionError: division by zero (teleop_node"
+    )
+    ended = [*TRACE[:-1], "KeyboardInterrupt"]
+    for facts, lines in ((BASE | {"exit_code": 1}, TRACE), (BASE, ended), (BASE, ["all is well"])):
+        assert survived(record({}, facts=facts, lines=[(0.5, line) for line in lines], submission="a.py")) == ""
 
 
 def test_the_last_of_several_tracebacks_counts(told):
@@ -273,3 +285,11 @@ def test_a_recording_without_facts_is_no_error(record):
     recording = record()
     assert outcome_of(recording) == "graded"
     assert diagnose(recording, LOOKS) == ""
+
+
+def test_what_stands_before_a_publish_that_never_ran(told):
+    here = {"file": "node.py", "line": 18, "code": "if self.n == 100:", "sends": 19}
+    conditions = [here | {"topic": "/cmd_vel"}, here | {"line": 30, "code": "if x:", "topic": "/other"}]
+    _, sentence = told(signals={}, conditions=conditions)
+    assert sentence.endswith("What decides whether publish() on /cmd_vel is reached: line 18, `if self.n == 100:`.")
+    assert told(conditions=conditions) == ("graded", "")

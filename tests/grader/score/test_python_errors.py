@@ -100,11 +100,77 @@ def test_a_mistake_is_explained(node, words):
     assert words in meaning(f"{told.type.__name__}: {told.value}".splitlines()[0])
 
 
+# Error, the line that raised it -> what is said.
+ERRORS = {
+    (
+        "TypeError: Talker.stop() takes 1 positional argument but 2 were given",
+        "self.stop(now)",
+    ): "def stop takes 0 argum",
+    (
+        "TypeError: Talker.move() missing 1 required positional argument: 'v'",
+        "self.move()",
+    ): "hands over no value for it",
+    ("TypeError: Talker.move() missing 1 required positional argument: 'v'", ""): "a timer calls its callback without",
+    ("TypeError: Node.get_logger() takes 1 positional argument but 2 were given", ""): "get_logger() without arguments",
+    ("TypeError: RcutilsLogger.info() takes 2 positional arguments but 3 were given", ""): "one text: f'speed",
+    ("TypeError: Node.__init__() takes 2 positional arguments but 3 were given", ""): "takes the name only",
+    (
+        "TypeError: Node.__init__() missing 1 required positional argument: 'node_name'",
+        'Node.__init__("a")',
+    ): "on the class",
+    ("AttributeError: 'Talker' object has no attribute 'now'", "now = self.now()"): "there is self.get_clock().now()",
+    (
+        "AttributeError: 'Talker' object has no attribute 'create_subscriber'",
+        "self.create_subscriber(a)",
+    ): "create_subsc",
+    ("AttributeError: property 'publishers' of 'Talker' object has no setter", "self.publishers = []"): "another name",
+    ("AttributeError: module 'rclpy' has no attribute 'init_node'", "rclpy.init_node('a')"): "rclpy.init() and then",
+    ("AttributeError: module 'std_msgs.msg' has no attribute 'Twist'", ""): "from geometry_msgs.msg import Twist",
+    ("ImportError: cannot import name 'Twist' from 'std_msgs.msg'", ""): "from geometry_msgs.msg import Twist",
+    ("ModuleNotFoundError: No module named 'Twist'", "import Twist"): "from geometry_msgs.msg import Twist",
+    ("NameError: name 'time' is not defined", "x = time.time()"): "import time",
+    ("NameError: name 'true' is not defined", "x = true"): "Python writes it True",
+    ("NameError: name 'TeleopNode' is not defined", "rclpy.spin(TeleopNode())"): "no class TeleopNode",
+    ("NameError: name 'tick' is not defined", "self.create_timer(0.1, tick)"): "handed over as self.tick",
+    ("TypeError: unsupported operand type(s) for -: 'Time' and 'Time'", "now - msg.header.stamp"): "Time.from_msg",
+    ("TypeError: unsupported operand type(s) for /: 'Duration' and 'float'", "d / 1e9"): "nanoseconds / 1e9",
+    ("TypeError: unsupported operand type(s) for *: 'Parameter' and 'int'", "p * 2"): "is its .value",
+    ("TypeError: unsupported operand type(s) for *: 'Float32' and 'int'", "m * 2"): ".data behind it",
+    ("TypeError: '<' not supported between instances of 'int' and 'str'", "a < b"): "float(text) makes a number",
+    ("TypeError: '<' not supported between instances of 'array.array' and 'float'", "r < 1.0"): "take one element",
+    ("TypeError: '>' not supported between instances of 'tuple' and 'int'", "t > 5"): "take one element",
+    ("TypeError: 'LaserScan' object is not iterable", "min(scan)"): "in its field ranges",
+    ("TypeError: 'float' object is not iterable", "min(scan.range_min)"): "take the whole list",
+    ("TypeError: array indices must be integers", "r[len(r) / 2]"): "// divides without",
+    ("IndexError: array index out of range", "r[360]"): "the last is len(...) - 1",
+    ("AttributeError: 'array.array' object has no attribute 'min'", "r.min()"): "min(values)",
+    ("TypeError: 'bool' object is not callable", "self.stop()"): "a variable has taken the name of a function",
+    ("ValueError: math domain error", "math.acos(2)"): "acos and asin take -1 to 1",
+    ("AttributeError: 'property' object has no attribute 'x'", "Twist.linear.x = 1.0"): "with brackets",
+    ("AttributeError: 'float' object has no attribute 'sec'", ""): ".now().to_msg()",
+    ("TypeError: object.__init__() takes exactly one argument (the instance to initialize)", ""): "class MyNode(Node)",
+    ("TypeError: Duration.__init__() takes 1 positional argument but 2 were given", ""): "Duration(seconds=5.0)",
+    ("TypeError: Duration.__init__() got an unexpected keyword argument 'sec'", ""): "Duration(seconds=5.0)",
+    ("AttributeError: 'Odometry' object has no attribute 'position'", ""): "position is in .pose.pose.position",
+    ("AttributeError: 'NoneType' object has no attribute 'ranges'", "min(self.scan.ranges)"): "no message has come",
+    ("f.py, line 3: SyntaxError: expected ':': else if b:", ""): "elif CONDITION",
+    ("f.py, line 3: SyntaxError: invalid syntax: if a && b:", ""): "and, or and not",
+    ("f.py, line 3: SyntaxError: invalid syntax: n++", ""): "x += 1",
+    ("f.py, line 3: SyntaxError: invalid decimal literal: x = 5s", ""): "no units",
+    ("f.py, line 3: SyntaxError: f-string: unmatched '[': x = f'{a['b']}'", ""): "the other kind of quotes",
+}
+
+
+@pytest.mark.parametrize("error", ERRORS)
+def test_an_error_in_a_line_is_explained(error):
+    assert ERRORS[error] in meaning(*error)
+
+
 @pytest.mark.parametrize(
     "error",
     [
-        "ZeroDivisionError: division by zero",
-        "TypeError: 'int' object is not iterable",
+        "ValueError: no robot",
+        "TypeError: 'Robot' object is not iterable",
         "TypeError: on_timer() takes 0 positional arguments but 1 was given",  # no method: it has no self
         "TypeError: Robot.drive() takes 2 positional arguments but 5 were given",
         "TypeError: Robot.__init__() takes 1 positional argument but 2 were given",

@@ -117,7 +117,7 @@ def squared(asked: Asked) -> np.ndarray:
     return asked.truth**2
 
 
-@predicts("the reciprocal of the right value, 1 / x")
+@predicts("the reciprocal of the right value, 1 / x", only=LENGTHS)
 def reciprocal(asked: Asked) -> np.ndarray:
     with np.errstate(divide="ignore"):
         return 1 / asked.truth

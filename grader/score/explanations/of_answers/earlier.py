@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import Asked, predicts
+from gz_course.grader.score.explanations.answers import LAST, NEARLY_ALL, Asked, Named, predicts
 
 
 def _before(truth: np.ndarray, count: int) -> np.ndarray:
@@ -60,26 +62,25 @@ def smoothed_over_two(asked: Asked) -> np.ndarray:
     return (asked.truth + _before(asked.truth, 1)) / 2
 
 
-@predicts("a moving average over several scans, not the value of this scan", rank=2)
-def moving_average(asked: Asked) -> np.ndarray:
-    return max(
-        [_window(asked.truth, width, np.mean) for width in (*range(3, 11), 12, 15, 20, 25, 30, 50)], key=asked.met
-    )
+@predicts("a moving average", rank=2)
+def moving_average(asked: Asked) -> Named:
+    words = "a moving average over the last {} scans, not the value of this scan"
+    return _widest_fit(asked, words, np.mean, (*range(3, 11), 12, 15, 20, 25, 30, 50))
 
 
-@predicts("the smallest of the last few scans, not of this scan", rank=2)
-def smallest_of_a_few(asked: Asked) -> np.ndarray:
-    return max([_window(asked.truth, width, np.min) for width in range(2, 11)], key=asked.met)
+@predicts("the smallest of a few scans", rank=2)
+def smallest_of_a_few(asked: Asked) -> Named:
+    return _widest_fit(asked, "the smallest of the last {} scans, not of this scan", np.min, range(2, 11))
 
 
-@predicts("the largest of the last few scans, not the value of this scan", rank=2)
-def largest_of_a_few(asked: Asked) -> np.ndarray:
-    return max([_window(asked.truth, width, np.max) for width in range(2, 11)], key=asked.met)
+@predicts("the largest of a few scans", rank=2)
+def largest_of_a_few(asked: Asked) -> Named:
+    return _widest_fit(asked, "the largest of the last {} scans, not the value of this scan", np.max, range(2, 11))
 
 
-@predicts("a median over several scans, not the value of this scan", rank=2)
-def moving_median(asked: Asked) -> np.ndarray:
-    return max([_window(asked.truth, width, np.median) for width in (3, 5, 7, 9)], key=asked.met)
+@predicts("a moving median", rank=2)
+def moving_median(asked: Asked) -> Named:
+    return _widest_fit(asked, "a median over the last {} scans, not the value of this scan", np.median, (3, 5, 7, 9))
 
 
 @predicts("a low-pass filter of the values (a part of the last answer is kept), not the value of this scan", rank=2)
@@ -100,7 +101,41 @@ def change(asked: Asked) -> np.ndarray:
 
 @predicts("the answer before once more, not a new one", rank=2)
 def same_again(asked: Asked) -> np.ndarray:
-    return _before(asked.given, 1) if np.ptp(asked.given[asked.answered]) > 0 else asked.unknown
+    """Return the answers before, if they are repeated where the right value has changed."""
+    known = np.flatnonzero(asked.answered)
+    known = known[known > 0]
+    repeated = asked.given[known] == asked.given[known - 1]
+    changed = np.abs(asked.truth[known] - asked.truth[known - 1]) > asked.tolerance
+    if changed.sum() < 2 or not np.ptp(asked.given[asked.answered]) > 0 or repeated[changed].mean() < NEARLY_ALL:
+        return asked.unknown
+    return _before(asked.given, 1)
+
+
+PAST: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
+    ("the {} of the scan before", lambda values: _before(values, 1)),
+    ("the average, over all scans so far, of the {}", lambda values: np.cumsum(values) / np.arange(1, len(values) + 1)),
+    ("the smallest, over all scans so far, of the {}", np.minimum.accumulate),
+    ("the largest, over all scans so far, of the {}", np.maximum.accumulate),
+    ("the sum, over all scans so far, of the {}", np.cumsum),
+)
+OTHER: tuple[tuple[str, str, Callable[[np.ndarray], float]], ...] = (
+    ("minimum", "smallest valid range", np.min),
+    ("mean", "average of the valid ranges", np.mean),
+    ("valid_count", "number of valid rays", len),
+    ("", "largest valid range", np.max),
+)
+
+
+@predicts("another statistic, of other scans", rank=LAST)
+def other_statistic_of_the_past(asked: Asked) -> Named:
+    """Return what another statistic, taken over earlier scans, too, gives."""
+    candidates = [
+        Named(words.format(name), past(asked.of_valid(of)))
+        for statistic, name, of in OTHER
+        if statistic != asked.statistic
+        for words, past in PAST
+    ]
+    return max(candidates, key=lambda each: asked.met(each.answers))
 
 
 @predicts("the time [s] of the scan")
@@ -114,7 +149,7 @@ def first_scan(asked: Asked) -> np.ndarray:
     return np.full(len(asked.truth), asked.truth[0] if moved else np.nan)
 
 
-@predicts("always the same number, whatever the scan", rank=2)
+@predicts("always the same number, whatever the scan", rank=LAST)
 def constant(asked: Asked) -> np.ndarray:
     values = asked.given[asked.answered & np.isfinite(asked.given)]
     if not len(values):
@@ -136,6 +171,12 @@ def counter(asked: Asked) -> np.ndarray:
     known = np.flatnonzero(asked.answered & np.isfinite(values))
     start = values[known[0]] - known[0] if len(known) else np.nan
     return np.arange(len(asked.truth)) + start
+
+
+def _widest_fit(asked: Asked, words: str, value: Callable[[np.ndarray], float], widths: Iterable[int]) -> Named:
+    """Return the values over as many of the last scans as fit the answers best."""
+    candidates = [Named(words.format(width), _window(asked.truth, width, value)) for width in widths]
+    return max(candidates, key=lambda each: asked.met(each.answers))
 
 
 def _window(truth: np.ndarray, width: int, value: object) -> np.ndarray:

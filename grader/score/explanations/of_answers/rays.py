@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gz_course.grader.score.explanations.answers import MEAN, Asked, predicts
+from gz_course.grader.score.explanations.answers import COUNT, LAST, LENGTHS, MEAN, Asked, Named, predicts
 
 Choice = Callable[[np.ndarray, float, float], np.ndarray]
 
@@ -50,14 +50,42 @@ def invalid_rays(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: row[~((row > low) & (row < high))])
 
 
-@predicts("those with inf counted as range_max")
+@predicts("those with inf counted as range_max", only=LENGTHS)
 def inf_is_range_max(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: np.where(np.isposinf(row), high, row)[~np.isneginf(row)])
 
 
-@predicts("those with every range clipped to range_min and range_max: inf became range_max, -inf range_min")
+@predicts(
+    "those with every range clipped to range_min and range_max: inf became range_max, -inf range_min",
+    only=LENGTHS,
+    rank=2,
+)
 def clipped(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: np.clip(np.nan_to_num(row, nan=high, posinf=high, neginf=low), low, high))
+
+
+@predicts("those with inf replaced by a huge number, as nan_to_num() does", only=LENGTHS)
+def huge_for_inf(asked: Asked) -> np.ndarray:
+    return asked.over(lambda row, low, high: np.nan_to_num(row))
+
+
+@predicts("those of the rays below a bound", rank=LAST)
+def below_another_bound(asked: Asked) -> Named:
+    """Find a bound of one's own in place of range_max, where range_min was not asked about."""
+    words = "those of all rays below {:g} m, -inf included: neither range_min nor range_max was asked about"
+    if asked.scans is None:
+        return Named("", asked.unknown)
+    if not np.isfinite(asked.given[asked.answered]).any():  # any bound fits
+        return Named(
+            words.replace("{:g} m", "a bound of your own"), asked.over(_below(float(asked.scans.high.min()) / 2))
+        )
+    limits = np.arange(0.5, asked.scans.high.max(), 0.5)
+    found = [Named(words.format(limit), asked.over(_below(limit))) for limit in limits]
+    return max(found, key=lambda each: asked.met(each.answers))
+
+
+def _below(limit: float) -> Choice:
+    return lambda row, low, high: row[row < limit]
 
 
 @predicts("those with 0 in place of the ranges that are not valid")
@@ -90,13 +118,31 @@ def without_the_last_ray(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: _valid(row[:-1], low, high))
 
 
+@predicts("the average of a sum that begins with the first valid range and adds it again", only=(MEAN,))
+def first_counted_twice(asked: Asked) -> np.ndarray:
+    return asked.of_valid(lambda valid: (valid.sum() + valid[0]) / len(valid))
+
+
+@predicts("one less than the number of all rays: the rays were not looked at", only=(COUNT,))
+def steps_between_rays(asked: Asked) -> np.ndarray:
+    return asked.of_rows(lambda row: len(row) - 1)
+
+
+@predicts("the number of groups of valid rays side by side, not of the rays", only=(COUNT,))
+def groups(asked: Asked) -> np.ndarray:
+    return asked.each(
+        lambda row, low, high: float(np.sum(np.diff(((row > low) & (row < high)).astype(int), prepend=0) == 1))
+    )
+
+
 @predicts("those of the rays ahead only, not of those all around", rank=2)
-def ahead(asked: Asked) -> np.ndarray:
+def ahead(asked: Asked) -> Named:
     """Return the answers of the sector, of the usual ones, that fits best."""
     if asked.scans is None or asked.scans.angle_max[0] - asked.scans.angle_min[0] < np.pi:
-        return asked.unknown
+        return Named("", asked.unknown)
     sector = (asked.scans.angle_max[0] - asked.scans.angle_min[0]) / 2
-    best, most = asked.unknown, -1
+    best, most = Named("", asked.unknown), -1
+    words = "those of the rays within {} degrees straight ahead only, not of those all around"
     for degrees in (5, 10, 15, 20, 30, 45, 60, 90):
         for last in (0, 1):  # a slice leaves its last ray out
 
@@ -108,7 +154,7 @@ def ahead(asked: Asked) -> np.ndarray:
 
             found = asked.over(in_sector)
             met = asked.met(found)
-            best, most = (found, met) if met > most else (best, most)
+            best, most = (Named(words.format(degrees), found), met) if met > most else (best, most)
     return best
 
 

@@ -77,6 +77,16 @@ def index(asked: Asked) -> np.ndarray:
     return asked.nearest
 
 
+@predicts("those of the numbers of the valid rays, 0, 1, 2 ..., not of their ranges", only=(MINIMUM, MEAN))
+def of_numbers(asked: Asked) -> np.ndarray:
+    return asked.each(lambda row, low, high: asked.of(np.flatnonzero((row > low) & (row < high)).astype(float)))
+
+
+@predicts("the index of the smallest of all ranges, the invalid ones included, and not a range", only=(MINIMUM,))
+def index_of_all(asked: Asked) -> np.ndarray:
+    return asked.of_rows(np.argmin)
+
+
 @predicts("the index of the nearest among the valid rays, not its range", only=(MINIMUM,))
 def index_among_valid(asked: Asked) -> np.ndarray:
     return asked.of_valid(np.argmin)

@@ -12,7 +12,7 @@ LATE = 0.6  # [s] after which the first command of a drive is late
 RATIOS = {
     0.5: "half of what is asked for; a clock that runs twice as fast as that on the wall, or a count of ticks of 0.5 s "
     "taken for seconds, gives that",
-    2.0: "twice what is asked for",
+    2.0: "twice what is asked for (at half a metre per second that is the time for as many metres as seconds)",
     0.2: "a fifth of what is asked for",
     0.1: "a tenth of what is asked for",
 }
@@ -83,11 +83,33 @@ def stops_at_once(drive: Drive) -> str:
 
 
 @explains
+def coarse_timer(drive: Drive) -> str:
+    """Find a stop that came with the first tick after the time, of a timer that ticks too seldom."""
+    _, duration, number = _only_push(drive)
+    if not number or not _wrong(drive, duration) or not drive.period > 0.1 * drive.seconds:
+        return ""
+    if not drive.seconds < duration <= drive.seconds + 1.05 * drive.period:
+        return ""
+    return (
+        f"the commands come {drive.period:.2f} s apart, so the stop waits for the first one after {drive.seconds:g} "
+        f"s and "
+        f"comes {duration:.2f} s after the start: a timer of 0.1 s looks often enough"
+    )
+
+
+@explains
 def other_duration(drive: Drive) -> str:
     begin, duration, number = _only_push(drive)
     if all_at_once(drive) or one_after_the_other(drive):
         return ""
-    if not number or counts_commands(drive) or not _wrong(drive, duration) or stops_at_once(drive):
+    if (
+        not number
+        or counts_commands(drive)
+        or coarse_timer(drive)
+        or whole_seconds(drive)
+        or not _wrong(drive, duration)
+        or stops_at_once(drive)
+    ):
         return ""
     for ratio, reason in RATIOS.items():
         if abs(duration - ratio * drive.seconds) <= 0.06 * ratio * drive.seconds + (drive.period or 0.0):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gz_course.grader.score.explanations.commands import Drive, explains
+from gz_course.grader.score.explanations.of_commands.velocity import world_axes
 
 
 @explains
@@ -29,10 +30,26 @@ def all_at_once(drive: Drive) -> str:
 
 
 @explains
+def in_separate_messages(drive: Drive) -> str:
+    """Find drives and turns that alternate from command to command."""
+    turning = np.abs(drive.angular[:, 2]) > 0.01
+    if not drive.moving.any() or not turning.any() or (drive.moving & turning).any():
+        return ""
+    busy = drive.moving[drive.moving | turning]
+    if len(busy) < 6 or np.count_nonzero(busy[1:] != busy[:-1]) < 0.6 * (len(busy) - 1):
+        return ""
+    return (
+        "every other command has linear.x only, and those between have angular.z only: each Twist takes the place "
+        "of the "
+        "one before, so both values belong into the same one"
+    )
+
+
+@explains
 def one_after_the_other(drive: Drive) -> str:
     """Find a turn without a drive, before or after a drive without a turn."""
     turning = np.abs(drive.angular[:, 2]) > 0.01
-    if not drive.moving.any() or not turning.any() or (drive.moving & turning).any():
+    if not drive.moving.any() or not turning.any() or (drive.moving & turning).any() or in_separate_messages(drive):
         return ""
     first, second = ("turns", "drives") if np.argmax(turning) < np.argmax(drive.moving) else ("drives", "turns")
     return (
@@ -66,6 +83,23 @@ def no_stop(drive: Drive) -> str:
 
 
 @explains
+def slower_instead_of_a_stop(drive: Drive) -> str:
+    """Find a steady drive that goes on, more slowly, to the end."""
+    values = drive.linear[:, 0]
+    last, first = values[-1], values[np.flatnonzero(drive.moving)[0]] if drive.moving.any() else 0.0
+    if len(values) < 6 or not 0.01 < last < 0.9 * first:
+        return ""
+    changed = np.flatnonzero(np.abs(values - last) > 1e-6)[-1] + 1
+    if np.ptp(values[:changed]) > 0.1 * first or len(values) - changed < 3:
+        return ""
+    return (
+        f"from {drive.times[changed]:.2f} s on linear.x is {last:.2g} m/s, which is slower and no stop: the robot "
+        f"stands "
+        "only if it is 0"
+    )
+
+
+@explains
 def drives_on_straight(drive: Drive) -> str:
     """Find a turn that was ended while the drive was not."""
     turning = np.flatnonzero(np.abs(drive.angular[:, 2]) > 0.01)
@@ -87,6 +121,9 @@ def never_ends(drive: Drive) -> str:
         return ""
     if np.ptp(drive.linear[drive.moving, 0]) > 0.1 * abs(drive.steady):
         return ""
+    turning = np.abs(drive.angular[:, 2]) > 0.01
+    if turning.any() and not turning[-1] and len(turning) - np.flatnonzero(turning)[-1] > 3:
+        return ""  # `drives_on_straight` says it
     return (
         f"{len(drive.times)} commands in a row drive the robot and not one stops it: the time your node reckons with "
         f"never reaches {drive.seconds:g} s (a count of ticks, nanoseconds without the seconds, a start that is set "
@@ -102,7 +139,7 @@ def alternates(drive: Drive) -> str:
     first, last = np.flatnonzero(moving)[[0, -1]]
     changes = np.mean(moving[first + 1 : last + 1] != moving[first:last])
     values = sorted({round(float(v), 2) for v in drive.linear[first : last + 1, 0]})
-    if changes < 0.6:
+    if changes < 0.6 or in_separate_messages(drive):
         return ""
     return (
         f"linear.x alternates between {values[0]:.2f} and {values[-1]:.2f}: two parts of your node (two timers, or two "
@@ -112,17 +149,40 @@ def alternates(drive: Drive) -> str:
 
 @explains
 def begins_again(drive: Drive) -> str:
-    if len(drive.pushes) < 2 or alternates(drive):
+    if len(drive.pushes) < 2 or alternates(drive) or in_separate_messages(drive):
         return ""
-    _, end, _ = drive.pushes[0]
+    _, end, number = drive.pushes[0]
     again = drive.pushes[1][0]
+    stops = int(np.sum(~drive.moving & (drive.times >= end) & (drive.times < again)))
+    if stops <= 2 and number > 3:
+        return (
+            f"{'one command of zeros comes' if stops == 1 else 'two commands of zeros come'} at {end:.2f} s, and at "
+            f"{again:.2f} s the next command drives the robot again: what sends the drive goes on after the stop; "
+            "cancel its timer, or let it ask whether the time is over"
+        )
     return f"the robot was driven {len(drive.pushes)} times: stopped at {end:.2f} s, driven again at {again:.2f} s"
+
+
+@explains
+def in_steps(drive: Drive) -> str:
+    """Find a drive of two or three speeds, each for a while."""
+    values = drive.linear[drive.moving, 0]
+    if len(values) < 6 or np.ptp(values) < 0.1 * np.abs(values).max() or slower_instead_of_a_stop(drive):
+        return ""
+    changes = np.flatnonzero(np.abs(np.diff(values)) > 1e-6)
+    if not 1 <= len(changes) <= 2 or np.any(values < 0):
+        return ""
+    when = drive.times[drive.moving][changes[0] + 1]
+    return (
+        f"linear.x is {values[0]:.2f} m/s at first and {values[changes[0] + 1]:.2f} m/s from {when:.2f} s on: it is to "
+        f"be {drive.speed:g} m/s for the whole {drive.seconds:g} s"
+    )
 
 
 @explains
 def ramps(drive: Drive) -> str:
     values = drive.linear[drive.moving, 0]
-    if len(values) < 5 or np.ptp(values) < 0.2 * np.abs(values).max():
+    if len(values) < 5 or np.ptp(values) < 0.2 * np.abs(values).max() or world_axes(drive):
         return ""
     steps = np.diff(values)
     growing, falling = np.mean(steps > 1e-4), np.mean(steps < -1e-4)

@@ -1,4 +1,4 @@
-"""Wrong velocities: units, signs, fields, factors."""
+"""Wrong speeds: units, signs, fields, factors, frames."""
 
 from __future__ import annotations
 
@@ -16,10 +16,25 @@ SPEEDS = {
     0.5: "that is half the speed asked for",
     10.0: "that is ten times the speed asked for",
     0.1: "that is a tenth of the speed asked for",
-    0.2: "that is the distance driven, divided by more than the time, or a fifth of the speed asked for",
+    0.2: "that is a fifth of the speed asked for, as if it were divided by the five seconds",
+    5.0: "that is five times the speed asked for, as if it were multiplied by the five seconds",
+    0.277778: "that is the speed divided by 3.6, as if it were given in km/h",
+    0.01: "that is a hundredth of the speed asked for, as if it were in cm/s",
+    0.001: "that is a thousandth of the speed asked for, as if it were in mm/s",
 }
-SLIGHT = 0.33  # [rad/s] a turn up to this is slight
-STRONG = 0.8  # [rad/s] more looks like degrees
+
+
+@explains
+def world_axes(drive: Drive) -> str:
+    """Find a speed that is split into x and y of the world: linear.y grows as linear.x falls."""
+    x, y = drive.linear[drive.moving, 0], drive.linear[drive.moving, 1]
+    if len(x) < 6 or np.abs(y).max() < 0.05 or np.ptp(np.hypot(x, y)) > 0.02 * np.hypot(x, y).max() or np.ptp(y) < 0.03:
+        return ""
+    return (
+        f"linear.x and linear.y are the parts of {np.hypot(x, y)[0]:.2f} m/s along the axes of the world (v cos, v "
+        f"sin of "
+        "the heading): a Twist is given in the robot's own frame, where forward is always linear.x"
+    )
 
 
 def _near(value: float, wanted: float) -> bool:
@@ -68,21 +83,6 @@ def backwards(drive: Drive) -> str:
 
 
 @explains
-def to_the_right(drive: Drive) -> str:
-    turning = drive.angular[np.abs(drive.angular[:, 2]) > 0.01, 2]
-    if len(turning) and np.all(turning < 0):
-        return f"angular.z was {np.median(turning):.2f} rad/s: a negative angular.z turns to the right"
-    return ""
-
-
-@explains
-def no_turn(drive: Drive) -> str:
-    if drive.moving.any() and not drive.angular.any() and not np.abs(drive.linear[:, 1:]).any():
-        return "angular.z was 0 in every command: the robot drives straight"
-    return ""
-
-
-@explains
 def other_speed(drive: Drive) -> str:
     values = np.abs(drive.linear[drive.moving, 0])
     if not len(values) or np.ptp(values) > 0.02 * values.max():
@@ -93,39 +93,3 @@ def other_speed(drive: Drive) -> str:
     if abs(values[0] - drive.speed) > 0.1 * drive.speed:
         return f"linear.x was {values[0]:.2f} m/s where {drive.speed:g} m/s is asked for"
     return ""
-
-
-@explains
-def wiggles(drive: Drive) -> str:
-    turning = drive.angular[np.abs(drive.angular[:, 2]) > 0.01, 2]
-    if len(turning) < 6 or not (turning > 0).any() or not (turning < 0).any():
-        return ""
-    changes = int(np.count_nonzero(np.diff(np.sign(turning))))
-    how = "from command to command" if changes > 0.8 * (len(turning) - 1) else f"{changes} times"
-    return f"the sign of angular.z changes {how}: the robot turns to the left and to the right by turns"
-
-
-@explains
-def wide_turn(drive: Drive) -> str:
-    turning = drive.angular[drive.moving, 2] if drive.moving.any() else drive.angular[:, 2]
-    strong = float(np.median(np.abs(turning))) if len(turning) else 0.0
-    if not SLIGHT < strong <= STRONG or _near(strong, drive.speed):
-        return ""
-    return f"angular.z was {strong:.2f} rad/s, which is no slight turn: 0.1 rad/s is one"
-
-
-@explains
-def weak_turn(drive: Drive) -> str:
-    turning = np.abs(drive.angular[drive.moving, 2])
-    if not len(turning) or not 0 < float(np.max(turning)) < 0.02:
-        return ""
-    return f"angular.z was at most {np.max(turning):.3g} rad/s: so weak a turn is hardly one"
-
-
-@explains
-def turn_in_degrees(drive: Drive) -> str:
-    turning = drive.angular[drive.moving, 2] if drive.moving.any() else drive.angular[:, 2]
-    strong = float(np.median(np.abs(turning))) if len(turning) else 0.0
-    if strong <= STRONG or _near(strong, drive.speed):
-        return ""
-    return f"angular.z was {strong:.2f} rad/s, which looks like degrees per second: math.radians() converts them"

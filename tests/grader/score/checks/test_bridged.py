@@ -183,3 +183,28 @@ def test_the_qos_of_a_topic_without_messages_is_worth_nothing(record):
         recording = record(facts={"bridges": bridges})
         finding = bridge_qos(recording, Table({"ros_topic": "/scan", "depth": [1, 99], "at_least": 5}, "check 'it'"))
         assert (finding.passed, finding.gated) == (False, True)
+
+
+@pytest.mark.parametrize(
+    ("facts", "words"),
+    [
+        (
+            {"lint": [{"sentence": "'subscriber_queue' changes nothing here"}]},
+            "subscriber_queue is the queue of a bridge",
+        ),
+        ({"lazy": ["/scan"]}, "lazy opens a bridge only while somebody listens"),
+        ({"lazy": ["/image"]}, ""),
+        ({}, ""),
+    ],
+)
+def test_what_was_taken_for_the_number_of_messages_is_named(record, facts, words):
+    table = Table({"ros_topic": "/scan", "depth": [1, 1], "at_least": 5}, "check 'it'")
+    finding = bridge_qos(record(facts={"bridges": [SCAN]} | facts), table)
+    assert not finding.passed and words in finding.explanation and bool(words) == bool(finding.explanation)
+
+
+def test_another_bridge_that_keeps_so_few_is_named(record):
+    other = SCAN | {"ros_topic": "/image", "publisher_qos": RELIABLE | {"depth": 1}}
+    table = Table({"ros_topic": "/scan", "depth": [1, 1], "at_least": 5}, "check 'it'")
+    finding = bridge_qos(record(facts={"bridges": [SCAN, other]}), table)
+    assert finding.explanation == "bridge.yaml, line 6: /image keeps so few; asked is /scan"

@@ -8,7 +8,14 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.score.check import check_kinds
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
-from gz_course.grader.score.launched import deaths, launch_fault
+from gz_course.grader.score.launched import (
+    deaths,
+    launch_fault,
+    launch_slips,
+    looked_elsewhere,
+    not_started,
+    simulator_fault,
+)
 
 LOOKS = find_kind("launch").diagnosis().looks
 SIMULATOR = {"given": "a.sdf", "world": "a.sdf", "error": "", "paused": False, "iterations": 0, "ran": True}
@@ -145,6 +152,103 @@ def test_what_a_process_said_last_before_it_died_is_quoted(find, record):
         "parameter_bridge ended with exit code 2; it said: parameter_bridge: bridge.yaml: cannot read the bridge "
         "configuration: No such file"
     )
+
+
+TRACEBACK = [
+    "[python3-3] Traceback (most recent call last):",
+    '[python3-3]   File "/submission/ranger_node.py", line 22, in __init__',
+    '[python3-3]     super().__init("ranger")',
+    '[python3-3]   File "/opt/lib/python3.11/site-packages/rclpy/node.py", line 88, in declare',
+    "[python3-3] TypeError: spin() missing 1 required positional argument: 'node'",
+    "[ERROR] [python3-3]: process has died [pid [...], exit code 1].",
+]
+
+
+def test_an_error_of_a_node_has_its_place_and_its_meaning(find, record):
+    recording = record(facts={"launch": GOOD}, lines=[(0.0, line) for line in TRACEBACK])
+    (death,) = deaths(recording)
+    assert death.words == (
+        "; it said: TypeError: spin() missing 1 required positional argument: 'node' "
+        '(ranger_node.py, line 22: super().__init("ranger"))'
+    )
+    assert death.why.startswith('ranger_node.py, line 22: super().__init("ranger"): the call is rclpy.spin(node)')
+    finding = find("node", lines=TRACEBACK, endpoints=[])
+    assert finding.measured.startswith("the node /stopwatch never ran: python3 ended with exit code 1; it said: Type")
+    assert finding.explanation == death.why
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        (
+            "bringup.launch.py/bridge.yaml: cannot read the bridge configuration: Not a directory",
+            "bringup.launch.py is the launch file itself, not a folder",
+        ),
+        ("bridge.yaml: cannot read: No such file or directory", "bridge.yaml was looked for in the folder"),
+        ("no bridge", ""),
+    ],
+)
+def test_a_path_that_leads_elsewhere_is_explained(said, words):
+    assert words in looked_elsewhere(said) and bool(words) == bool(looked_elsewhere(said))
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        ("argument -s: ignored explicit argument 'lidar_room.sdf'", "a space is missing between -s and lidar_room.sdf"),
+        ("argument -s: ignored explicit argument ' -r'", "-s -r is one word"),
+        ("world file '<launch.LaunchConfiguration object at 0x7f>' was not found", "a Python object stands in"),
+        ("world file 'world' was not found as a path", "LaunchConfiguration('world')"),
+        ("world file '/submission/b.sdf' was not found as a path", "looked for in the folder /submission"),
+        ("world file 'c.sdf' was not found as a path", ""),
+        ("which world?", ""),
+    ],
+)
+def test_a_command_line_of_the_simulator_is_explained(record, said, words):
+    facts = {"declared": [{"file": "a.py", "line": 1, "name": "world"}]}
+    recording = record(facts=facts, trial_parameters=json.dumps({"parameters": {"world": "b.sdf"}}))
+    found = simulator_fault(said, recording)
+    assert words in found and bool(words) == bool(found)
+
+
+def test_arguments_of_other_names_and_worlds_that_stand_in_the_command_are_named(record):
+    place = {"file": "a.launch.py", "line": 7}
+    trial = json.dumps({"parameters": {"world": "b.sdf"}})
+    for facts, words in (
+        ({"declared": [place | {"name": "file"}, place | {"name": "paused"}]}, "no argument called world; it declares"),
+        ({"fixed_worlds": [place | {"world": "a.sdf"}]}, "a.launch.py, line 7: a.sdf stands in the command"),
+        ({"fixed_worlds": [place | {"world": "c.sdf"}], "declared": [place | {"name": "world"}]}, ""),
+    ):
+        recording = record(facts={"launch": GOOD} | facts, trial_parameters=trial)
+        finding = check_kinds()["launched_world"](recording, Table(PARAMETERS["world"], "check 'it'", "parameter"))
+        assert not finding.passed and words in finding.explanation and bool(words) == bool(finding.explanation)
+
+
+@pytest.mark.parametrize(
+    ("default", "given", "words"),
+    [
+        ("true", {}, "a.launch.py, line 7: the default_value of paused is 'true', not 'false'"),
+        ("true", {"paused": "false"}, ""),
+        ("False", {}, ""),
+    ],
+)
+def test_a_default_that_is_not_asked_for_is_named(record, default, given, words):
+    facts = {"declared": [{"file": "a.launch.py", "line": 7, "name": "paused", "default": default}], "launch": GOOD}
+    recording = record(facts=facts | {"sim_seconds": 0.0}, trial_parameters=json.dumps({"parameters": given}))
+    finding = check_kinds()["launched_paused"](recording, Table(PARAMETERS["paused"], "check 'it'", "parameter"))
+    assert (finding.passed, finding.explanation) == (False, words)
+
+
+def test_programs_that_did_not_start_and_mistakes_in_the_file_come_first(record):
+    line = "[ERROR] [gz sim -s -1]: /submission/bringup.launch.py:22: there is no program 'gz sim -s ' to be started"
+    slip = {"file": "bringup.launch.py", "line": 7, "said": "this is wrong"}
+    recording = record(facts={"launch": GOOD, "launch_slips": [slip]}, lines=[(0.0, STARTED), (0.0, line)])
+    assert not_started(recording) == (
+        "bringup.launch.py, line 22: there is no program 'gz sim -s ' to be started. What that means: the whole "
+        "command line is one word of the list: cmd takes each word by itself, ['gz', 'sim', ...]."
+    )
+    assert launch_slips(recording) == "bringup.launch.py, line 7: this is wrong."
+    assert not_started(record()) == launch_slips(record()) == ""
 
 
 def test_what_a_bridge_has_left_out_is_quoted(record):

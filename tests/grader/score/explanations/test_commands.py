@@ -75,6 +75,29 @@ WRONG = {
     "two publish() calls": drive(lambda now, calls: [GO, STOP] if now < 5.2 else STOP),
     "driven again at": drive(lambda now, calls: GO if now % 4 < 2.6 else STOP),
     "a ramp": drive(lambda now, calls: (min(0.5, 0.02 * calls), 0.1) if now < 5.2 else STOP),
+    "slower and no stop": drive(lambda now, calls: GO if now < 5.2 else (0.1, 0.0)),
+    "what sends the drive goes on after the stop": drive(lambda now, calls: STOP if now == 5.0 else GO),
+    "each Twist takes the place of the one before": drive(
+        lambda now, calls: [(0.5, 0.0), (0.0, 0.1)] if now < 5.2 else STOP
+    ),
+    "0.50 m/s at first and 0.25 m/s from 2.75 s on": drive(
+        lambda now, calls: GO if now < 2.6 else (0.25, 0.1) if now < 5.2 else STOP
+    ),
+    "angular.z goes from 0.00 to 1.90 rad/s": drive(lambda now, calls: (0.5, 0.1 * calls) if now < 5.2 else STOP),
+    "angular.z is 0 from 2.75 s on, while the robot still drives": drive(
+        lambda now, calls: (GO if now < 2.6 else (0.5, 0.0)) if now < 5.2 else STOP
+    ),
+    "angular.z is 0 until 2.75 s, while": drive(
+        lambda now, calls: ((0.5, 0.0) if now < 2.6 else GO) if now < 5.2 else STOP
+    ),
+    "pi/4, 45 degrees in every second": drive(scaled(1, 7.854)),
+    "57 degrees in every second": drive(scaled(1, 10)),
+    "the value was in rad/s already": drive(scaled(1, math.radians(1))),
+    "as if it were multiplied by the five seconds": drive(scaled(5, 1)),
+    "the stop waits for the first one after 5 s": drive(lambda now, calls: GO if now - 2.0 < 5.0 else STOP, period=2.0),
+    "the sign of angular.z changes once": drive(
+        lambda now, calls: (0.5, 0.1 if now < 2.6 else -0.1) if now < 5.2 else STOP
+    ),
     "angular.z stays at 0.10": drive(lambda now, calls: GO if now < 5.2 else (0.0, 0.1)),
 }
 
@@ -88,6 +111,19 @@ def test_the_wrong_field_is_named():
     sideways = drive(right)
     sideways.angular[:, 0], sideways.angular[:, 2] = sideways.angular[:, 2], 0.0
     assert "angular.x was set to 0.10, but the robot takes its command from angular.z" in explain(sideways)
+
+
+def test_a_speed_along_the_axes_of_the_world_is_no_ramp():
+    world = drive(right)
+    heading = 0.2 * world.times[world.moving]
+    world.linear[world.moving, 0], world.linear[world.moving, 1] = 0.5 * np.cos(heading), 0.5 * np.sin(heading)
+    assert "in the robot's own frame" in explain(world) and "ramp" not in explain(world)
+
+
+def test_a_speed_sideways_is_no_turn():
+    sideways = drive(scaled(1, 0))
+    sideways.linear[:, 1] = 0.2 * (sideways.linear[:, 0] > 0)
+    assert "linear.y is a speed sideways" in explain(sideways)
 
 
 def test_a_drive_that_is_too_long_is_not_taken_for_counted_ticks():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gz_course.grader.score.explanations.texts import difference, too_many, wrong_moment
+from gz_course.grader.score.explanations.texts import difference, line_difference, too_many, wrong_moment
 from gz_course.grader.score.launched import looked_elsewhere
 
 WANTED = "hello, robot"
@@ -13,12 +13,12 @@ WANTED = "hello, robot"
     ("said", "words"),
     [
         (WANTED, ""),
-        ("", ""),
+        ("", "the text is empty"),
         ("something else", ""),
         ("Hello, robot", "capitals and small letters only"),
         ("hello robot", "punctuation marks only"),
         ("hello,robot", "spaces only"),
-        ("'hello, robot'", "quotation marks only"),
+        ("'hello, robot'", "quotation marks only, as json.dumps() and repr() put them"),
         ("hello, robot\n", "white space before or after"),
         ("Hello robot!", "capitals and small letters and punctuation marks"),
         ("hello, robto", "letter by letter"),
@@ -58,4 +58,29 @@ def test_a_relative_path_is_named():
 )
 def test_the_way_of_too_many_messages_is_named(times, words):
     said = too_many(np.array(times), 3.0)
+    assert words in said and bool(words) == bool(said)
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        (
+            ["Scan: 301 valid rays, min: 1.57m, avg: 2.86m"],
+            "behind 'rays, min' the line has ': N.NNm', where '=N.NNm,'",
+        ),
+        (
+            ["Scan: 301.0 valid rays, min=1.57m, avg=2.86m"],
+            "behind 'Scan:' the line has 'N.NN valid', where 'N valid'",
+        ),
+        (["301 valid rays, min=1.57m, avg=2.86m"], "at its beginning the line has 'N valid"),
+        (["Scan: 301 valid rays, min=inf, avg=2.86m"], "behind 'min=N.NN' the line has ', avg=', where 'm, avg'"),
+        (["Scan: 301 valid rays, min=1.57m, avg=2.86"], "the line ends, where 'm' is asked for"),
+        (["Scan: 301 valid rays, min=1.57m, avg=2.86m!"], "has '!', where it should end"),
+        (["Scan: 301 valid rays", "min=1.57m", "avg=2.86m"], "spread over several"),
+        (["Scan: 1 valid rays, min=0.57m, avg=12.86m"], ""),
+        ([], ""),
+    ],
+)
+def test_in_what_a_line_of_the_log_differs(lines, words):
+    said = line_difference(lines, "Scan: 301 valid rays, min=1.23m, avg=4.56m")
     assert words in said and bool(words) == bool(said)

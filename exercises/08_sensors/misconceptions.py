@@ -1,0 +1,335 @@
+"""What a run looks like if its node has a common misconception; `checks.py` asks for the one that fits."""
+
+import math
+import runpy
+from collections import Counter
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+from gz_course.grader.score.suspects import suspect
+
+CHECKS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("checks.py"))))
+HALF_VIEW = 0.5  # [rad] to either side; a post within it is surely in the picture
+SEES = 3.4  # [m] within which a post is surely large enough
+STAND = 0.9  # [s] of the first second
+
+
+def too_few_points(recording, points):
+    """Return why hardly any point came; empty if that is not known."""
+    number = len(recording.signal("topics/red_post/count"))
+    if number - len(points) > 5:
+        return (
+            f"{number - len(points)} of your {number} points are not finite: the depth is inf, or NaN, where "
+            "nothing is near enough; take the depth of the red pixels, and leave out what is not finite"
+        )
+    red = CHECKS.posts(recording, "red")[0]
+    if 0 < len(points) <= len(red) + 1:
+        return "a point came for each post once: one is asked for each red post in each pair of pictures"
+    return ""
+
+
+def missing_posts(recording, points, stamps, missing):
+    """Return why there is no point at some of the red posts, shape (n, 2), if all points are right."""
+    times = np.unique(np.round(recording.signal("topics/camera/image/header/stamp").values * 1e9).astype(np.int64))
+    times = times[times <= (stamps.max() if len(stamps) else 0)]
+    if not len(times):
+        return ""
+    red = CHECKS.posts(recording, "red")[0]
+    visible = np.array(
+        [[in_view(at, place) for place in red] for at in zip(*CHECKS.pose(recording, times), strict=True)]
+    )
+    lost = np.array([any(np.allclose(place, each) for each in missing) for place in red])
+    alone = visible[:, lost].any(axis=1) & (visible.sum(axis=1) == 1)
+    together = visible[:, lost].any(axis=1) & (visible.sum(axis=1) > 1)
+    turned = float(np.ptp(CHECKS.truth(recording, "yaw", times)))
+    if not visible[:, lost].any() and turned < 0.9 * CHECKS.FULL_TURN:
+        return f"the robot has turned by {math.degrees(turned):.0f} degrees only, and they were never in a picture"
+    if together.any() and not alone.any():
+        return "they were in pictures with another red post only: there may be several red things in one picture"
+    start = [float(each[0]) for each in CHECKS.pose(recording, np.zeros(1))]
+    away = [float(np.hypot(*(place - start[:2]))) for place in missing]
+    others = [float(np.hypot(*(place - start[:2]))) for place, gone in zip(red, lost, strict=True) if not gone]
+    if others and min(away) > max(others):
+        return (
+            f"they are the farthest, {min(away):.1f} m away, where a post has few pixels: your rule for red, or for "
+            "how many pixels a thing has at least, is too strict"
+        )
+    return ""
+
+
+def in_view(at, place):
+    ahead, left = CHECKS.before_camera(tuple(map(float, at)), place)
+    return 0.3 < ahead < SEES and abs(math.atan2(left, ahead)) < HALF_VIEW
+
+
+def misplaced(recording, points, stamps, right):
+    """Return what else is wrong with points, of which some are right; empty if nothing fits."""
+    red = CHECKS.posts(recording, "red")[0]
+    at = CHECKS.pose(recording, stamps)
+    ahead, left = points[:, 0], points[:, 1]
+    if np.abs(points[:, :2]).max(initial=0.0) < 1e-3:
+        return "every point is at (0, 0): nothing is put into point.x and point.y"
+    if np.ptp(ahead) < 0.01 and np.ptp(left) < 0.01:
+        return "every point is the same: it must be computed anew from each pair of pictures"
+    if np.abs(left).max() < 1e-3 and np.abs(ahead).max() > 0.5:
+        return (
+            "point.y is always 0: a post is beside the middle of the picture, -(column - cx) / fx * ahead to the left"
+        )
+    seen = np.array([[CHECKS.before_camera(tuple(each[i] for each in at), p) for p in red] for i in range(len(ahead))])
+    if said := middle_off(seen, ahead, left):
+        return said
+    if said := one_thing(seen, ahead, left, right):
+        return said
+    if said := other_depth(seen, ahead, left, right):
+        return said
+    return suspect(recording, "angle")
+
+
+def middle_off(seen, ahead, left):
+    """Find out whether all points are off to one side by the same share of their distance."""
+    near = np.abs(seen[:, :, 0] - CHECKS.RADIUS - ahead[:, None]) <= 0.15
+    which = np.where(near, np.abs(seen[:, :, 1] - left[:, None]), np.inf).argmin(axis=1)
+    known = near.any(axis=1) & (ahead > 0.3)
+    if known.sum() < CHECKS.FEWEST or known.mean() < 0.7:
+        return ""
+    off = (left - seen[np.arange(len(ahead)), which, 1])[known] / ahead[known]
+    usual = float(np.median(off))
+    if abs(usual) < 0.1 or np.mean(np.abs(off - usual) <= 0.06) < 0.7:
+        return ""
+    side = "left" if usual > 0 else "right"
+    return (
+        f"every point is too far to the {side}, by {abs(usual):.2f} m for each metre ahead: the column is counted from "
+        "another place than the middle of the picture, cx = k[2]"
+    )
+
+
+def one_thing(seen, ahead, left, right):
+    """Find out whether points are wrong exactly where two posts are in the picture."""
+    angles = np.arctan2(seen[:, :, 1], seen[:, :, 0])
+    visible = (np.abs(angles) < HALF_VIEW) & (seen[:, :, 0] > 0.3) & (seen[:, :, 0] < SEES)
+    several = visible.sum(axis=1) > 1
+    low = np.where(visible, angles, np.inf).min(axis=1)
+    high = np.where(visible, angles, -np.inf).max(axis=1)
+    direction = np.arctan2(left, ahead)
+    between = several & (direction > low + 0.03) & (direction < high - 0.03)
+    if (~right).sum() >= 3 and between[~right].mean() > 0.7 and right[~several].mean() > 0.8:
+        return (
+            "points are wrong where two red posts are in one picture: they lie between the two, as if all red pixels "
+            "were one thing; make one point for each group of red columns side by side"
+        )
+    return ""
+
+
+def other_depth(seen, ahead, left, right):
+    """Find out what the distances are if the directions are right."""
+    wrong = ~right
+    angles = np.arctan2(seen[:, :, 1], seen[:, :, 0])
+    near = np.abs(angles - np.arctan2(left, ahead)[:, None]) <= 0.06
+    known = near.any(axis=1) & wrong
+    if known.sum() < 5 or known.sum() < 0.7 * wrong.sum():
+        return ""
+    which = np.where(near, seen[:, :, 0], np.inf).argmin(axis=1)
+    true = seen[np.arange(len(ahead)), which]
+    straight, along = true[known, 0], np.hypot(*true[known].T)
+    ratio = ahead[known] / (straight - CHECKS.RADIUS)
+    usual = float(np.median(ratio))
+    if np.ptp(ahead[known]) < 0.02:
+        return (
+            f"the directions are right, but every distance is {ahead[known][0]:.2f} m: it must be read from the depth"
+        )
+    if abs(usual - 1) > 0.1 and np.mean(np.abs(ratio - usual) <= 0.08 * abs(usual)) > 0.8:
+        return f"the directions are right, and the distances are {usual:.2f} times the right ones"
+    if np.median(ahead[known] - along) > 0.3:
+        return (
+            "the directions are right and the distances too large: the depth is that of the wall behind the post, or a "
+            "mean with pixels beside it; take the median depth of the red pixels"
+        )
+    return ""
+
+
+def never_turned(recording):
+    """Return why the robot did not turn, and no number came."""
+    if not len(recording.signal("topics/cmd_vel/angular/z")):
+        return (
+            "no command came on /cmd_vel, because drive() returns as long as self.heading is None: on_imu must set it "
+            "to 0.0 when the first second is over, and then add what the robot has turned"
+        )
+    return ""
+
+
+def on_and_on(recording):
+    """Return why the robot never stopped turning, as far as the file tells."""
+    return suspect(recording, "gyroscope", "angle") or (
+        "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or is "
+        "compared with 360 although it is in radians, or each message counts for less time than has passed, or it is "
+        "one number of a quaternion"
+    )
+
+
+def too_fast(recording, turned):
+    """Return what is wrong with a heading that was a full turn when the robot had turned by another angle [rad]."""
+    if said := suspect(recording, "gyroscope", "angle"):
+        return said
+    if abs(turned) < 0.05:
+        return "the number came before the robot had turned at all: the heading was a full turn from the start"
+    factor = CHECKS.FULL_TURN / turned
+    return f"your heading grows {factor:.2f} times as fast as the robot turns" if turned > 0 else ""
+
+
+def several_numbers(recording):
+    """Return why several numbers came."""
+    signal = recording.signal("topics/red_count/data")
+    gaps = np.diff(signal.times) / 1e9
+    if (np.diff(signal.values) > 0).any() and (np.diff(signal.values) >= 0).all():
+        return "a number came for each post that was found: publish it once, when the turn is over"
+    if len(gaps) > 3 and np.ptp(gaps) < 0.05:
+        return (
+            f"the number comes again every {np.median(gaps):.2g} s: what publishes it is done in every call after the "
+            "turn; remember that it was said"
+        )
+    return ""
+
+
+def other_count(recording, number, when):
+    """Return what else a wrong number of red posts counts, given when it came [ns]; empty if that is not known."""
+    points, stamps, came = CHECKS.said_points(recording)
+    names = CHECKS.posts(recording)[1]
+    red = sum(name.startswith("red") for name in names)
+    if number == 0:
+        return "no post was remembered: self.posts is empty when the turn is over"
+    if number == len(names):
+        return "that is the number of all posts, of every colour"
+    kinds = {kind: sum(name.startswith(kind) for name in names) for kind in ("blue", "orange", "green")}
+    for kind, many in kinds.items():
+        if many and number == red + many and CHECKS.hits(*_there(recording, kind)).any():
+            return f"that is the number of red and {kind} posts together"
+    before = came <= when
+    if not before.any():
+        return ""
+    same = Counter(stamps[before].tolist())
+    if number == max(same.values()) < red:
+        return "that is how many were in one picture: they must be remembered over the whole turn"
+    x, y, yaw = (each[before] for each in CHECKS.pose(recording, stamps))
+    here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
+    for words, found in ways_to_count(here, points[before], yaw):
+        if number == found != red:
+            return words
+    if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
+        return (
+            "posts were counted again: the places of the same post differ by more than your rule for 'the same' allows"
+        )
+    return ""
+
+
+def _there(recording, kind):
+    points, stamps, _ = CHECKS.said_points(recording)
+    return CHECKS.placed(CHECKS.pose(recording, stamps), points[:, 0], points[:, 1]), CHECKS.posts(recording, kind)[0]
+
+
+def ways_to_count(here, points, yaw):
+    """Yield wrong rules for which points are the same post, and how many posts they find among points (n, 2)."""
+    for metres in (1.0, 1.5, 2.0, 3.0, 5.0):
+        words = (
+            f"that is the number if points up to {metres:g} m apart are one post: the posts stand nearer to each other"
+        )
+        yield words, _distinct(here, metres)
+    for metres in (0.02, 0.05, 0.1):
+        words = (
+            f"that is the number if points more than {metres:g} m apart are two posts: depth and heading have errors"
+        )
+        yield words, _distinct(here, metres)
+    last = 1 + int((np.hypot(*np.diff(here, axis=0).T) > CHECKS.SAME_PLACE).sum())
+    yield "that is the number if each point is compared with the last one only, and not with all known posts", last
+    degrees = np.degrees(yaw)
+    c, s = np.cos(degrees), np.sin(degrees)
+    ahead, left = points[:, 0] + CHECKS.CAMERA_AHEAD, points[:, 1]
+    turned = np.stack([ahead * c - left * s, ahead * s + left * c], axis=1)
+    yield "that is the number if cos and sin get the heading in degrees", _distinct(turned, CHECKS.SAME_PLACE)
+    distances = np.hypot(*here.T)
+    yield (
+        "that is the number if posts at the same distance are one: the direction counts, too",
+        _distinct(distances[:, None], CHECKS.SAME_PLACE),
+    )
+    for metres in (1.0, 0.5, 0.1):
+        cells = len(np.unique(np.round(here / metres), axis=0))
+        words = (
+            f"that is the number of places rounded to {metres:g} m: a post near the border of two cells counts twice"
+        )
+        yield words, cells
+
+
+def _distinct(places, apart):
+    """Return how many places are more than `apart` [m] from all before them."""
+    known = []
+    for place in places:
+        if all(np.linalg.norm(place - other) > apart for other in known):
+            known.append(place)
+        if len(known) > CHECKS.MOST_PLACES:
+            break
+    return len(known)
+
+
+def other_post(recording, name):
+    """Return by which rule a red post was chosen that is not the nearest; empty if none fits."""
+    red, names = CHECKS.posts(recording, "red")
+    start = [float(each[0]) for each in CHECKS.pose(recording, np.zeros(1))]
+    away = np.linalg.norm(red - np.array(start[:2]), axis=1)
+    chosen = names.index(name)
+    points, stamps, came = CHECKS.said_points(recording)
+    first = CHECKS.counted(recording)
+    there = CHECKS.placed(CHECKS.pose(recording, stamps), points[:, 0], points[:, 1])
+    there = there[came <= (first[0] if first else recording.end_ns)]
+    order = [int(np.linalg.norm(red - place, axis=1).argmin()) for place in there if len(red)]
+    if chosen == int(away.argmax()):
+        return "it is the farthest one: the nearest has the smallest distance"
+    if order and chosen == order[0]:
+        return "it is the one that was seen first: the nearest is asked for"
+    if order and chosen == order[-1]:
+        return "it is the one that was seen last: the nearest is asked for"
+    return ""
+
+
+def wrong_stop(recording, away):
+    """Return why the robot stood at another distance [m] before the right post than it should."""
+    command = recording.signal("topics/cmd_vel/linear/x")
+    if len(command) and command.times[-1] < recording.end_ns - 2e9 and abs(command.values[-1]) > 0.02:
+        return f"no command came after {command.times[-1] / 1e9:.1f} s, and the robot obeys the last one"
+    if away < 0.2:
+        return "it drove until it touched the post: nothing stopped it"
+    if abs(away - (CHECKS.STOP - CHECKS.CAMERA_AHEAD - CHECKS.RADIUS)) < 0.06:
+        return (
+            "the middle of the robot is 1 m before the middle of the post; what the depth camera measures "
+            "counts, to the front of the post"
+        )
+    near = "too near" if away < CHECKS.STOP else "too far away"
+    return f"it is {near} by {abs(away - CHECKS.STOP):.2f} m: the depth camera must measure 1 m to the post at the end"
+
+
+def faced_nothing(recording, here, start):
+    """Return in which wrong direction the robot looked at the end."""
+    red = CHECKS.posts(recording, "red")[0]
+    nearest = red[int(np.argmin(np.linalg.norm(red - np.array(start[:2]), axis=1)))]
+    wanted = math.remainder(math.atan2(nearest[1] - start[1], nearest[0] - start[0]) - start[2], 2 * math.pi)
+    looked = math.remainder(here[2] - start[2], 2 * math.pi)
+    if abs(math.remainder(looked + wanted, 2 * math.pi)) < 0.2 < abs(wanted):
+        return "it looked to the right where the nearest red post is to the left, or the other way round: a wrong sign"
+    if abs(looked) < 0.15 < abs(wanted):
+        return "it looked where it had looked at the start, and not to the nearest red post"
+    off = math.degrees(math.remainder(looked - wanted, 2 * math.pi))
+    return (
+        f"at the end it looked {abs(off):.0f} degrees to the {'left' if off > 0 else 'right'} of the nearest red post"
+    )
+
+
+def still_moving(recording):
+    """Return why the robot was moving at the end."""
+    speed = recording.signal("topics/cmd_vel/linear/x")
+    late = speed.values[speed.times > recording.end_ns - 3e9]
+    if len(speed) and speed.times[-1] < recording.end_ns - 1e9:
+        return f"no command came after {speed.times[-1] / 1e9:.1f} s, and the robot obeys the last one"
+    signs = np.sign(late[np.abs(late) > 0.02])
+    if np.count_nonzero(np.diff(signs)) >= 3:
+        return "it drives to and fro: the gain is too high, or nothing says when it is near enough"
+    return ""

@@ -1,0 +1,227 @@
+"""What a patrol looks like if its server has a common misconception; `patrol_checks.py` asks for those that fit."""
+
+import numpy as np
+
+from gz_course.grader.score.suspects import suspect
+
+MOVED = 0.1  # [m] a robot that moved less stood
+SAME = 0.1  # of a speed, to be called the same
+
+
+def went_elsewhere(run, goal, until):
+    """Return where the robot went instead of to the waypoints; empty if that is not known."""
+    points = np.array(run.waypoints(goal))
+    start, _ = run.period(goal)
+    chosen = (run.times >= start) & (run.times <= until)
+    way = run.way[chosen]
+    if not len(way):
+        return ""
+    if np.hypot(*(way - way[0]).T).max() < MOVED:
+        return stood(run, chosen)
+    if said := suspect(run.recording, "heading", "angle"):
+        return said
+    candidates = {
+        "x and y of the waypoints are exchanged": points[:, ::-1],
+        "y of the waypoints has the wrong sign: y grows to the left": points * (1, -1),
+        "x of the waypoints has the wrong sign": points * (-1, 1),
+        "each waypoint is taken as seen from the one before; waypoints are places in the frame odom": np.cumsum(
+            points, 0
+        ),
+        "waypoints are taken as seen from where the patrol begins; they are places in the frame odom": points + way[0],
+        "the waypoints are visited in the opposite order": points[::-1],
+        "waypoints are taken for centimetres; they are in metres": points / 100,
+        "waypoints are taken for millimetres; they are in metres": points / 1000,
+    }
+    for words, places in candidates.items():
+        if not np.allclose(places, points) and _reaches(way, places):
+            return f"The robot went elsewhere: {words}"
+    if len(points) > 1 and not _reaches(way, points[:1]) and _reaches(way, points[-1:]):
+        return (
+            "The robot drove to the last waypoint only: the goal holds a list of them, to be visited one after another"
+        )
+    return turned_wrong(run, chosen, points) or blind(run, goal)
+
+
+def _reaches(way, places):
+    """Return whether a way (n, 2) leads to all places (m, 2), in their order, to 0.12 m, and not all by its start."""
+    if np.hypot(*(places - way[0]).T).max() < 0.3:
+        return np.hypot(*(way - way[0]).T).max() < 0.3 and bool(np.hypot(*(way[-1] - places[-1])) < 0.12)
+    for place in places:
+        left = np.hypot(*(way - place).T)
+        if left.min() > 0.12:
+            return False
+        way = way[int(np.argmax(left <= 0.12)) :]
+    return True
+
+
+def stood(run, chosen):
+    """Return why the robot did not move from its place."""
+    turned = np.abs(run.angular.values[chosen]).max(initial=0.0)
+    commands = run.recording.signal("topics/cmd_vel/linear/x")
+    if not len(commands):
+        return "No command came on /cmd_vel while the patrol was under way: execute never publishes one"
+    if turned > 0.2:
+        return suspect(run.recording, "heading", "angle") or (
+            "The robot turned on the spot and never drove: your server never finds that it faces the waypoint, so its "
+            "heading, or the direction to the waypoint, atan2(dy, dx), is wrong, or the loop does not see /odom change"
+        )
+    return ""
+
+
+def turned_wrong(run, chosen, points):
+    """Find out whether the robot turns away from the first waypoint that it misses."""
+    way, yaw = run.way[chosen], run.heading[chosen]
+    missed = next((p for p in points if np.hypot(*(way - p).T).min() > 0.17), points[-1])
+    after = 0
+    for point in points:
+        if np.allclose(point, missed):
+            break
+        after = int(np.argmax(np.hypot(*(way - point).T) <= 0.17))
+    beside = missed - way[after:]
+    error = np.remainder(np.arctan2(beside[:, 1], beside[:, 0]) - yaw[after:] + np.pi, 2 * np.pi) - np.pi
+    rate = run.angular.values[chosen][after:]
+    clear = (np.abs(error) > 0.3) & (np.abs(error) < 2.6) & (np.abs(rate) > 0.1)
+    if clear.sum() >= 10 and np.mean(np.sign(error[clear]) != np.sign(rate[clear])) > 0.85:
+        return (
+            "The robot turns away from the waypoint: a positive angular.z turns to the left, and the angle to turn by "
+            "is atan2(dy, dx) - heading"
+        )
+    if clear.sum() < 10 and np.mean(np.abs(error) > 0.3) > 0.5 and np.abs(rate).max(initial=0.0) < 0.05:
+        return "The robot never turns towards the waypoint: angular.z stays 0 although the waypoint is beside it"
+    return ""
+
+
+def blind(run, goal):
+    """Find out whether the server sees the same place again and again although the robot moves."""
+    said = run.all("feedback", goal)
+    if len(said) >= 5 and len({each["distance"] for each in said}) == 1:
+        return (
+            "The patrol never ended: the loop in execute does not see where the robot is, because its distance never "
+            "changes. While it runs, /odom needs a thread of its own, that of a MultiThreadedExecutor, and a callback "
+            "group that lets both run; and the loop must read the place anew"
+        )
+    return ""
+
+
+def reached_early(run, goal):
+    """Find out whether a patrol ended, or a waypoint was left, too far away."""
+    found, points = run.one("result", goal), run.waypoints(goal)
+    if found is None:
+        return ""
+    start, end = run.period(goal)
+    way = run.way[(run.times >= start) & (run.times <= end)]
+    if not len(way) or np.hypot(*(way - way[0]).T).max() < MOVED:
+        return (
+            f"The patrol ended as {found['status']} before the robot had moved: what ends it must come after the loop "
+            "that drives"
+        )
+    near = [float(np.hypot(*(way - point).T).min()) for point in points]
+    if max(near) < 0.6:
+        return (
+            f"Your server holds a waypoint for reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
+            "asked for"
+        )
+    if near[0] < 0.2:
+        return (
+            f"The patrol ended as {found['status']} after the first waypoint: a return, or a break, stands inside the "
+            "loop"
+        )
+    return ""
+
+
+def drives_on(run):
+    """Return how fast [m/s] the robot is when a patrol has been over for 0.3 s, until the next goal."""
+    found, following = run.one("result", "patrol"), run.one("sent", "cancelled")
+    if found is None or following is None:
+        return 0.0
+    after = (run.times >= found["at"] + 0.3) & (run.times <= following["at"])
+    return float(np.abs(run.linear.values[after]).max(initial=0.0))
+
+
+def other_speed(run, fastest):
+    """Return what the speeds are instead of those of the goals: `fastest` [m/s] by goal."""
+    asked = {goal: run.one("sent", goal)["speed"] for goal in fastest}
+    ratios = {goal: fastest[goal] / asked[goal] for goal in fastest}
+    for factor, words in (
+        (0.01, "a speed in metres per second is taken for centimetres per second"),
+        (1 / 3.6, "the speed is divided by 3.6, as if it were in km/h; it is in metres per second"),
+        (3.6, "the speed is multiplied by 3.6, as if km/h were asked for; it is in metres per second"),
+        (0.5, "linear.x is half of it"),
+        (2.0, "linear.x is twice as much"),
+    ):
+        if all(abs(ratio - factor) <= SAME * factor for ratio in ratios.values()):
+            return f"Your server drives at {factor:.2g} times the speed of the goal: {words}"
+    if words := proportional(run, asked):
+        return words
+    values = list(fastest.values())
+    if len(values) == 2 and abs(values[0] - values[1]) <= 0.05 * max(values) and max(values) > 0.05:
+        return (
+            f"Your server drives at {values[0]:.2f} m/s whatever the goal says: linear.x is goal_handle.request.speed"
+        )
+    goal = max(ratios, key=lambda each: abs(ratios[each] - 1))
+    if ratios[goal] < 0.85:
+        return (
+            f"Your server drives slower than the goal says, {fastest[goal]:.2f} m/s at most where {asked[goal]:.2f} "
+            "m/s are asked for: it may be slower only to turn and to arrive"
+        )
+    return f"Your server drives at {fastest[goal]:.2f} m/s where the goal says {asked[goal]:.2f}: linear.x has no limit"
+
+
+def proportional(run, asked):
+    """Find out whether linear.x goes with the distance that is left over the whole way."""
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    for goal in asked:
+        said = run.all("feedback", goal)
+        if len(said) < 10:
+            continue
+        at = np.array([each["at"] for each in said])
+        left = np.array([each["distance"] for each in said])
+        index = np.searchsorted(signal.times / 1e9, at, side="right") - 1
+        speed = signal.values[np.maximum(index, 0)]
+        driving = (speed > 0.02) & (left > 0.2)
+        if driving.sum() >= 8 and np.ptp(left[driving]) > 0.4:
+            gain = speed[driving] / left[driving]
+            if np.mean(np.abs(gain - np.median(gain)) <= 0.1 * np.median(gain)) > 0.8:
+                return (
+                    f"linear.x is {np.median(gain):.2f} times the distance that is left, all the way: the speed of the "
+                    "goal is no gain but how fast to drive, min(speed, 1.5 * distance)"
+                )
+    return ""
+
+
+def other_visited(run, found, total):
+    """Return what `visited` of a patrol that was driven to its end counts."""
+    if found["visited"] == total - 1:
+        return f"visited is {found['visited']}, the index of the last waypoint; the robot has been at {total} waypoints"
+    if found["visited"] > 3 * total:
+        return f"visited is {found['visited']}, but {total} waypoints were visited: it counts the rounds of a loop"
+    return f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
+
+
+def other_feedback(run, said, points):
+    """Yield what else distances may be: words, and the values they would have."""
+    places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
+    way, index = run.way[places], np.array([each["waypoint"] for each in said])
+    steps = np.hypot(*np.diff(run.way, axis=0, prepend=run.way[:1]).T)
+    targets = np.array(points)
+
+    def to(numbers):
+        return np.hypot(*(way - targets[np.clip(numbers, 0, len(targets) - 1)]).T)
+
+    here = targets[np.clip(index, 0, len(targets) - 1)] - way
+    following = np.hypot(*np.diff(targets, axis=0).T)
+    first = np.array([np.argmax(index == each) for each in index])
+    yield "how far the robot is from where it started", np.hypot(*way.T)
+    yield "how far the robot has driven", np.cumsum(steps)[places] - np.cumsum(steps)[places[0]]
+    yield "how far it is to the last waypoint", to(np.full(len(index), len(targets)))
+    yield "how far it is to the next waypoint but one", to(index + 1)
+    yield "how far it is to the waypoint before", to(index - 1)
+    yield "the whole way that is left, over all waypoints", to(index) + [following[i:].sum() for i in index.clip(0)]
+    yield "the square of how far it is: the square root is missing", to(index) ** 2
+    yield "the sum of the distances along x and y; it should be hypot(dx, dy)", np.abs(here).sum(axis=1)
+    yield "how far it is along x alone", np.abs(here[:, 0])
+    yield "how far it is along y alone", np.abs(here[:, 1])
+    yield "how far it is in centimetres", 100 * to(index)
+    yield "how far it was when the robot set off to this waypoint: compute it anew in every round", to(index)[first]
+    yield "how far the robot has come since the waypoint before", to(index)[first] - to(index)
+    yield "the length of the whole leg less itself, or always 0", np.zeros(len(index))

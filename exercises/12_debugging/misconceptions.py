@@ -1,0 +1,131 @@
+"""What a system with one more fault measures and commands: each function names the misconception that fits, or nothing.
+
+Distances are in metres, speeds in metres per second.
+"""
+
+import math
+
+import numpy as np
+
+CLOSE = 0.03  # [m] of distances that are taken for equal; the noise of the lidar is 0.005 m
+SHARE = 0.9  # of the values that a misconception must fit
+FEWEST = 5  # values; fewer may fit by chance
+GAIN = 1.5  # [1/s] of the driver as it was given
+FASTEST = 0.6  # [m/s] of the driver as it was given
+STANDS = 0.01  # [m/s]
+HEIGHT = 0.06  # [m] of base_link above the ground
+FRONT = 0.2  # [m] from base_link
+
+
+def of_a_mount(seen, mount, sign):
+    """Explain a wrong place of the lidar in base_link; `sign` is -1 if base_link is the child of the transform."""
+    if math.dist([-each for each in seen], mount) < 0.005:
+        if sign < 0:
+            return "the transform is inverted: parent and child are swapped"
+        return (
+            "the transform is inverted: its numbers are the place of base_link, seen from lidar_link; they must be "
+            "that of the child, seen from its parent"
+        )
+    for factor, unit in ((1000, "millimetres"), (100, "centimetres")):
+        if math.dist([each / factor for each in seen], mount) < 0.005:
+            return f"the transform is given in {unit}; tf2 takes metres"
+    wrong = [name for name, one, other in zip("xyz", seen, mount, strict=True) if abs(one + other) < 0.005 < abs(one)]
+    others = [name for name, one, other in zip("xyz", seen, mount, strict=True) if abs(one - other) >= 0.005]
+    if wrong and wrong == others:
+        return f"the sign of {' and '.join(wrong)} is wrong"
+    if others == ["z"] and abs(seen[2] - mount[2] - HEIGHT) < 0.005:
+        return "z is the height above the ground; base_link itself is above the ground"
+    if len(others) > 1 and sorted(round(each, 2) for each in seen) == sorted(round(each, 2) for each in mount):
+        return "the numbers stand at the wrong axes: x points ahead, y to the left, z up"
+    if not any(round(each, 3) for each in seen):
+        return "the transform says that both frames are at the same place"
+    return ""
+
+
+def of_a_distance(measured, truth, mount):
+    """Explain distances to the wall that are wrong, given the true ones and the lidar's x in base_link."""
+    for words, wrong in (
+        ("the distance is measured from the lidar, and is asked for from base_link", truth - mount),
+        ("the place of the lidar on the cart is taken with the wrong sign", truth - 2 * mount),
+        ("the distance is measured from the front of the cart, and is asked for from base_link", truth - FRONT),
+        ("the distance is given in centimetres", truth * 100),
+        ("the distance is given in millimetres", truth * 1000),
+        ("the distance has the wrong sign", -truth),
+    ):
+        if _fits(measured, wrong) and not _fits(measured, truth):
+            return words
+    if _fits(measured, truth) or len(measured) < FEWEST:
+        return ""
+    if np.ptp(measured) < CLOSE < np.ptp(truth):
+        return f"every distance is {measured[-1]:.2f} m, however far the wall is"
+    error = measured - truth
+    if np.mean(error < -CLOSE) >= SHARE:
+        return (
+            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away: something "
+            "nearer than the wall, or not ahead, is taken for it"
+        )
+    if np.mean(error > CLOSE) >= SHARE:
+        return f"the distance is too large, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away"
+    return ""
+
+
+def of_a_driver(distance, speed, wanted):
+    """Explain speeds that are wrong, given the latest distance at each and the distance that was asked for."""
+    left = distance - wanted
+    if len(speed) < FEWEST:
+        return ""
+    if _drives(speed, left):
+        return ""
+    if not np.any(np.abs(speed) > STANDS):
+        return "every command is zero although distances arrive: a condition before the speed is set never holds"
+    away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
+    if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
+        return "the sign of linear.x is wrong: it drives away from the wall"
+    if _drives(speed, left - FRONT):
+        return "the distance is taken from the front of the cart, and it is asked for from base_link"
+    if (other := _aim(distance, speed)) is not None and abs(other - wanted) > CLOSE:
+        return f"the commands drive the cart to {other:.2f} m from the wall, not to the {wanted:g} m that stop_at says"
+    before = speed[: np.flatnonzero(np.abs(speed) > STANDS)[-1]]  # it comes to rest
+    still = np.mean(np.abs(before) <= STANDS) if len(before) >= FEWEST else 0.0
+    if still > 0.2:
+        return (
+            f"{100 * still:.0f} % of the commands before it comes to rest are zero: distances are dropped, or each "
+            "is used only once"
+        )
+    driven = speed[np.abs(speed) > STANDS]
+    if np.ptp(driven) < STANDS:
+        return f"the command is {driven[-1]:.2f} m/s or nothing: it does not fall as the wall comes near"
+    if abs(speed[-1]) > 2 * STANDS and left[-1] * speed[-1] > 0:
+        return (
+            f"it is still on its way: the last command is {speed[-1]:.2f} m/s with {abs(left[-1]):.2f} m left; it is "
+            "too slow for that distance"
+        )
+    return ""
+
+
+def _drives(speed, left):
+    """Whether the commands are those of the driver as it was given, with `left` [m] to drive.
+
+    Where the fastest speed cuts them off, they say nothing about the way that is left.
+    """
+    commands = np.clip(GAIN * left, -FASTEST, FASTEST)
+    free = np.abs(commands) < FASTEST
+    return _fits(speed, commands) and _fits(speed[free], commands[free])
+
+
+def _aim(distance, speed):
+    """Return the distance at which the commands come to zero, if they fall in proportion to it; else None."""
+    free = (np.abs(speed) < np.abs(speed).max() - STANDS) & (np.abs(speed) > STANDS)
+    if free.sum() < FEWEST or np.ptp(distance[free]) < 4 * CLOSE:
+        return None
+    gain, offset = np.polyfit(distance[free], speed[free], 1)
+    if gain <= 0 or not _fits(speed[free], gain * distance[free] + offset):
+        return None
+    return float(-offset / gain)
+
+
+def _fits(values, others):
+    """Whether nearly all values are close to others."""
+    if len(values) < FEWEST:
+        return False
+    return bool(np.mean(np.abs(values - others) < CLOSE) >= SHARE)

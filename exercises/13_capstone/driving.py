@@ -1,0 +1,138 @@
+"""What is wrong with how a robot explored, or with what its map leaves out; `checks.py` asks for it."""
+
+import numpy as np
+
+from gz_course.grader.score.floor import grown
+from gz_course.grader.score.suspects import suspect
+
+AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was driven at
+SLOW = 0.15  # [m/s]
+TURNS = 4.0  # of the whole robot, that are more than a way needs
+FITS = 0.8
+
+
+def commands(recording):
+    """Return the commanded speeds [m/s] and turning rates [rad/s]."""
+    return tuple(recording.signal(f"topics/cmd_vel/{name}").values for name in ("linear/x", "angular/z"))
+
+
+def stands(recording):
+    """Return why a robot never drove, as far as its commands tell; empty if they do not."""
+    ahead, turning = commands(recording)
+    if not len(ahead):
+        return "no command came on /cmd_vel"
+    if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
+        return f"all of its {len(ahead)} commands were 0"
+    if not np.abs(ahead).max() > 0.01:
+        return suspect(recording, "heading", "angle", "ray") or "linear.x was 0 in every command"
+    return ""
+
+
+def slow_or_lost(recording):
+    """Return why a robot that drove did not see all rooms; empty if that is not known."""
+    ahead, _ = commands(recording)
+    yaw = recording.signal("truth/robot/yaw").values
+    way = recording.signal("truth/robot/distance").values.max(initial=0.0)
+    x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
+    seconds = recording.end_ns / 1e9
+    turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
+    if turns > TURNS and way < 0.1 * seconds:
+        said = suspect(recording, "heading", "angle", "ray") or (
+            "an angle to turn by must be brought between -pi and pi, and be measured from where the robot looks"
+        )
+        return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
+    if len(ahead) and 0 < ahead.max() < SLOW:
+        return f"linear.x was {ahead.max():.2f} m/s at most, too slow to see all rooms in {seconds:.0f} s"
+    if way < 0.1 * seconds:
+        return f"the robot drove {way:.1f} m in {seconds:.0f} s: most of the time it stood or turned"
+    if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
+        return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
+    if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
+        return (
+            f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m: nothing leads it to what "
+            "its map does not know yet"
+        )
+    return ""
+
+
+def touched(recording, radius, at, place):
+    """Return how the robot came to touch something at a time [ns], whose nearest point is at `place` (x, y) [m]."""
+    x, y, yaw = (
+        float(np.interp(at, signal.times, signal.values))
+        for signal in (recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw"))
+    )
+    bearing = np.remainder(np.arctan2(place[1] - y, place[0] - x) - yaw + np.pi, 2 * np.pi) - np.pi
+    if said := suspect(recording, "ray", "heading", "angle"):
+        return said
+    if abs(bearing) > AHEAD:
+        side = "left" if bearing > 0 else "right"
+        return (
+            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead, driving past: the "
+            f"way leaves less room than the robot's radius, {radius:g} m, as if it were a point; widen walls by 0.25 m"
+        )
+    return "it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time"
+
+
+def nearest_point(shapes, point):
+    """Return the point of an obstacle that is nearest to one [m], found on rings around it."""
+    for distance in np.arange(0.0, 0.5, 0.01):
+        angles = np.linspace(-np.pi, np.pi, 73)
+        ring = np.stack([point[0] + distance * np.cos(angles), point[1] + distance * np.sin(angles)], 1)
+        off = shapes.nearest(ring)
+        if off.min() < 0.012:
+            return ring[int(off.argmin())]
+    return np.asarray(point)
+
+
+def unclear(said, wanted):
+    """Return what the walls are if they are neither occupied nor free: values in between; empty if they are not."""
+    values = said[grown(wanted)]
+    between = (values > 25) & (values < 65)
+    if between.sum() < 30 or (grown(between_map(said))[wanted]).mean() < 0.3:
+        return ""
+    return (
+        f"many walls have values between 26 and 64, such as {np.median(values[between]):.0f}, which are neither free "
+        "nor occupied: decide for 0 or 100 where a hit was seen"
+    )
+
+
+def between_map(said):
+    return (said > 25) & (said < 65)
+
+
+def walls_missing(said, wanted, first):
+    """Return why walls that were hit are not in the map: `said` in the end, `first` in an earlier map or None."""
+    values = said[wanted]
+    if first is not None:
+        lost = (first >= 65) & ~grown(said >= 65)
+        if lost.sum() >= 20 and lost.sum() > 0.5 * (first >= 65).sum():
+            return "walls that were in earlier maps are gone: each scan must be added to what is known, not replace it"
+    if ((values >= 0) & (values <= 25)).mean() > 0.4:
+        return (
+            "many walls that were hit are free in the map: a ray that ends in a cell, or grazes it, makes it free "
+            "again; the hit counts more than the rays that pass"
+        )
+    if (values < 0).mean() > 0.4:
+        return "many walls that were hit are unknown in the map: hits of most rays, or of most scans, are left out"
+    return ""
+
+
+def not_free(said, by_hits, by_others):
+    """Return why cells that rays passed are not free: those of rays with a hit, and those of rays without one only."""
+    unknown = said < 0
+    others = by_others & ~by_hits
+    if others.sum() >= 50 and unknown[others].mean() > FITS and unknown[by_hits].mean() < 0.3:
+        return (
+            "only rays with a hit make cells free: a ray of inf has hit nothing within range_max, so all cells on its "
+            "way are free, too"
+        )
+    share = unknown[by_hits].mean() if by_hits.any() else 0.0
+    if share > 0.3:
+        beside = grown(~unknown & (said <= 25))
+        if beside[by_hits].mean() > share and (beside & by_hits & unknown).sum() > 0.6 * (by_hits & unknown).sum():
+            return (
+                f"{share:.0%} of the cells on the rays are unknown between cells that are free: the steps along a ray "
+                "are larger than a cell; half a cell is a good step"
+            )
+        return f"{share:.0%} of the cells that rays passed are still unknown: most rays, or most scans, are left out"
+    return ""

@@ -1,0 +1,193 @@
+"""Suspects in what adds up the rates of a gyroscope: times that are no times, headings that jump, the wrong axis."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.lint.headings import Suspect, assigned, calls
+
+TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
+WRAPS = frozenset({"remainder", "fmod", "atan2", "arctan2", "wrap", "normalize", "normalize_angle"})
+DEPTH = 4  # steps in which a name is replaced by what it was assigned
+
+
+def _functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
+    """Yield the functions that read a turning rate."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef) and "angular_velocity" in ast.unparse(node):
+            yield node
+
+
+def _sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr]]:
+    """Yield the statements that make an attribute of a rate: the statement, the attribute, and what is added."""
+    values = _values(function)
+    for node in ast.walk(function):
+        target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
+        if not isinstance(node, ast.Assign | ast.AugAssign) or not isinstance(target, ast.Attribute):
+            continue
+        name = ast.unparse(target)
+        text = ast.unparse(expanded(node.value, values))
+        if "angular_velocity" in text and not re.search("bias|offset|drift|mean|rates", name):
+            yield node, name, node.value
+
+
+def _values(function: ast.FunctionDef) -> dict[str, ast.expr]:
+    """Return what names of a function are assigned, if only once."""
+    found: dict[str, list[ast.expr]] = {}
+    for target, value in assigned(function):
+        if isinstance(target, ast.Name):
+            found.setdefault(target.id, []).append(value)
+    return {name: values[0] for name, values in found.items() if len(values) == 1}
+
+
+def expanded(value: ast.expr, values: dict[str, ast.expr], depth: int = DEPTH) -> ast.expr:
+    """Return an expression with names replaced by what they were assigned."""
+
+    class Replace(ast.NodeTransformer):
+        def visit_Name(self, node: ast.Name) -> ast.expr:
+            known = values.get(node.id) if depth else None
+            return expanded(known, values, depth - 1) if known is not None else node
+
+    return Replace().visit(ast.parse(ast.unparse(value), mode="eval").body)
+
+
+def _constants(tree: ast.AST) -> dict[str, float]:
+    """Return the numbers that names in capitals, and attributes, are assigned once."""
+    found: dict[str, list[object]] = {}
+    for target, value in assigned(tree):
+        number: object = value.value if isinstance(value, ast.Constant) else None
+        if isinstance(value, ast.BinOp) and re.fullmatch(r"[\d.]+ / [\d.]+", ast.unparse(value)):
+            number = 1.0  # a quotient of two numbers, such as 1 / 25
+        found.setdefault(ast.unparse(target), []).append(number)
+    return {
+        name: float(values[0])
+        for name, values in found.items()
+        if len(values) == 1 and isinstance(values[0], int | float) and not isinstance(values[0], bool)
+    }
+
+
+def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
+    """Find rates that are added up with the same time for every message, or without any."""
+    constants = _constants(tree)
+    for function in _functions(tree):
+        values = _values(function)
+        for node, name, value in _sums(function):
+            whole = expanded(value, values)
+            names = {ast.unparse(each) for each in ast.walk(whole) if isinstance(each, ast.Name | ast.Attribute)}
+            others = [each for each in names if each not in constants and TIMES.search(each)]
+            if others or not _adds(node, name):
+                continue
+            factors = [each for each in names if each in constants and each != name and "bias" not in each]
+            numbers = [
+                each.value for each in ast.walk(whole) if isinstance(each, ast.Constant) and each.value not in (0, 1)
+            ]
+            if factors or numbers:
+                yield (
+                    node.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(node)[:70]} counts every message for the same time, which is not that between "
+                    "two messages: use the difference of their stamps",
+                )
+            else:
+                yield (
+                    node.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(node)[:70]} adds rates [rad/s] without a time: an angle is a rate times the time "
+                    "since the message before",
+                )
+
+
+def _adds(node: ast.stmt, name: str) -> bool:
+    """Say whether a statement adds to what an attribute was."""
+    return isinstance(node, ast.AugAssign) or (isinstance(node, ast.Assign) and name in ast.unparse(node.value))
+
+
+def replaced(tree: ast.AST) -> Iterator[Suspect]:
+    for function in _functions(tree):
+        for node, name, value in _sums(function):
+            text = ast.unparse(value)
+            if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
+                yield (
+                    node.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(node)[:70]} forgets what was turned before: the steps are added up, {name} += ...",
+                )
+
+
+def jumps(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading that is brought back into one turn."""
+    for function in _functions(tree):
+        names = {name for _, name, _ in _sums(function)}
+        for node in ast.walk(function):
+            target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
+            if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or ast.unparse(target) not in names:
+                continue
+            wraps = bool(calls(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
+            wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in ast.walk(node.value))
+            wraps |= (
+                isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in ast.unparse(node.value)
+            )
+            if wraps:
+                yield (
+                    node.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(node)[:70]} makes the heading jump back, so it never reaches a full turn, 2 pi: add "
+                    "up without a limit",
+                )
+
+
+def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
+    """Find another axis than z, the orientation of the message, and parts of stamps."""
+    for function in _functions(tree):
+        text = ast.unparse(function)
+        for node in ast.walk(function):
+            if isinstance(node, ast.Attribute) and ast.unparse(node).endswith(
+                ("angular_velocity.x", "angular_velocity.y")
+            ):
+                yield node.lineno, "gyroscope", f"{ast.unparse(node)} is tilting: turning on the spot is about z"
+            if isinstance(node, ast.Call) and calls(node) & {"degrees", "rad2deg"}:
+                yield (
+                    node.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
+                )
+        if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
+            line = next(n.lineno for n in ast.walk(function) if isinstance(n, ast.Attribute) and n.attr == "nanosec")
+            yield line, "gyroscope", "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
+        if re.search(r"stamp\.sec\b", text) and ".nanosec" not in text:
+            line = next(n.lineno for n in ast.walk(function) if isinstance(n, ast.Attribute) and n.attr == "sec")
+            yield line, "gyroscope", "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "sum" and _undivided(tree, node):
+            given = ast.unparse(node)
+            if re.search("rate|bias|gyro|still|offset|sample", given):
+                yield node.lineno, "gyroscope", f"{given[:60]} is a sum; the bias is the mean: divide by their number"
+
+
+def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading that is compared with 360 where nothing makes degrees."""
+    if calls(tree) & {"degrees", "rad2deg"} or not any(_functions(tree)):
+        return
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare):
+            continue
+        numbers = [each.value for each in ast.walk(node) if isinstance(each, ast.Constant)]
+        if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", ast.unparse(node)):
+            yield (
+                node.lineno,
+                "gyroscope",
+                f"{ast.unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
+            )
+
+
+def _undivided(tree: ast.AST, call: ast.Call) -> bool:
+    """Say whether a sum stands in no division, and is not given a name that might be divided later."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) and any(e is call for e in ast.walk(node.left)):
+            return False
+    return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
+
+
+LOOKS = (wrong_fields, turns_of_360, fixed_times, replaced, jumps)

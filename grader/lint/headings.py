@@ -1,0 +1,129 @@
+"""Suspects about angles: parts of a quaternion that are taken for the heading, degrees for radians, x before y."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+Suspect = tuple[int, str, str]
+SINES = frozenset({"cos", "sin", "tan"})
+TO_DEGREES = frozenset({"degrees", "rad2deg"})
+TO_RADIANS = frozenset({"radians", "deg2rad"})
+HEADING = re.compile(r"heading|yaw|theta|\bth\b|phi|psi|angle|direction|orientation", re.IGNORECASE)
+OF_SCANS = re.compile(r"\bangle_(?:min|max|increment)\b")
+X, Y = re.compile(r"\bd?x\b|\[0\]|\bd_?x\b|\bdelta_x\b"), re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b")
+
+
+def last_name(call: ast.Call) -> str:
+    """Return the last part of the name of what is called: `cos` of `math.cos(x)`."""
+    return ast.unparse(call.func).rpartition(".")[2]
+
+
+def calls(node: ast.AST) -> set[str]:
+    return {last_name(each) for each in ast.walk(node) if isinstance(each, ast.Call)}
+
+
+def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield every target of an assignment with its value; the parts of tuples one by one."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
+            yield node.target, node.value
+        for target in node.targets if isinstance(node, ast.Assign) else ():
+            if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
+                yield from zip(target.elts, node.value.elts, strict=False)
+            else:
+                yield target, node.value
+
+
+def _quaternions(tree: ast.AST) -> set[str]:
+    """Return the names that stand for a quaternion: those that are assigned something.orientation."""
+    return {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Attribute) and value.attr in ("orientation", "rotation")
+    }
+
+
+def _part(node: ast.AST, names: set[str]) -> str:
+    """Return which part of a quaternion an expression is, such as `z`; empty if it is none."""
+    if not isinstance(node, ast.Attribute) or node.attr not in ("x", "y", "z", "w"):
+        return ""
+    of = ast.unparse(node.value)
+    return node.attr if of in names or of.endswith((".orientation", ".rotation")) else ""
+
+
+def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
+    """Find headings that are made of a quaternion in a wrong way."""
+    names = _quaternions(tree)
+    for target, value in assigned(tree):
+        parts = {part for node in ast.walk(value) if (part := _part(node, names))}
+        if not parts or not HEADING.search(ast.unparse(target)):
+            continue
+        words = _wrong_heading(value, parts, names)
+        if words:
+            yield value.lineno, "heading", f"{ast.unparse(value)[:60]} is taken for the heading: {words}"
+
+
+def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
+    used, right = calls(value), "the heading is 2 * atan2(orientation.z, orientation.w)"
+    if not used and len(parts) == 1:
+        (part,) = parts
+        what = {"z": "the sine of half of it", "w": "the cosine of half of it"}.get(part, "nearly 0 on flat ground")
+        return f"orientation is a quaternion, whose {part} is {what}; {right}"
+    if used == {"atan2"} and parts == {"z", "w"} and isinstance(value, ast.Call):
+        if _part(value.args[0], names) == "w":
+            return f"atan2 takes the sine first, which is z; {right}"
+        return f"that is half of it; {right}"
+    if used == {"acos"} and parts == {"w"}:
+        return f"acos does not know left from right; {right}"
+    if used == {"asin"} and parts == {"z"} and isinstance(value, ast.Call):
+        return f"that is half of it; {right}"
+    return ""
+
+
+def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
+    in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        name, given = last_name(node), [*node.args]
+        text = ast.unparse(node)[:60]
+        if name in SINES and given and not calls(given[0]) & TO_RADIANS and not _to_radians(given[0]):
+            parts = {ast.unparse(each) for each in ast.walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
+            if _in_degrees(given[0]) or parts & in_degrees:
+                yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
+        if name in TO_RADIANS and given and OF_SCANS.search(ast.unparse(given[0])):
+            yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"
+
+
+def _in_degrees(value: ast.AST) -> bool:
+    return bool(calls(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", ast.unparse(value)))
+
+
+def _to_radians(value: ast.AST) -> bool:
+    return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", ast.unparse(value)))
+
+
+def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angular.z that is assigned degrees."""
+    in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    for target, value in assigned(tree):
+        parts = {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
+        wrong = (_in_degrees(value) or parts & in_degrees) and not calls(value) & TO_RADIANS
+        if wrong and ast.unparse(target).endswith("angular.z"):
+            yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
+
+
+def sine_first(tree: ast.AST) -> Iterator[Suspect]:
+    """Find atan2 of x and y."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or last_name(node) not in ("atan2", "arctan2") or len(node.args) != 2:
+            continue
+        first, second = (ast.unparse(each) for each in node.args)
+        if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
+            yield node.lineno, "heading", f"{ast.unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
+
+
+LOOKS = (quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first)

@@ -1,0 +1,49 @@
+"""Mistakes in launch files that raise no error, or one that does not name them.
+
+The kind of submission that is a launch file records them as facts; the diagnosis names them if the run lost points.
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import Any
+
+from gz_course.grader.lint.launch_files import actions, commands, values
+from gz_course.grader.lint.launch_files.commas import missing_commas
+from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
+from gz_course.grader.lint.syntax import Places, places_in
+
+MOST = 3  # places reported at most
+
+
+def launch_places(content: bytes) -> dict[str, Places]:
+    """Return the places in a launch file, none if it is not Python.
+
+    `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
+    names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
+    and `default` (a text, or empty).
+    """
+    found: dict[str, Places] = {}
+
+    def look(tree: ast.Module) -> Places:
+        file = LaunchFile(tree)
+        slips = [place for look in (*values.LOOKS, *actions.LOOKS, *commands.LOOKS) for place in look(file)]
+        slips += missing_commas(content)
+        found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]
+        found["fixed_worlds"] = [{"line": line, "world": world} for line, world in values.fixed_worlds(file)][:MOST]
+        found["declared"] = [
+            {
+                "line": call.lineno,
+                "name": text(argument(call, "name", 0)),
+                "default": text(file.value(argument(call, "default_value"))),
+            }
+            for call in file.calls("DeclareLaunchArgument")
+        ]
+        return []
+
+    places_in(content, look)
+    return found
+
+
+def _place(line: int, said: str) -> dict[str, Any]:
+    return {"line": line, "said": said}

@@ -1,0 +1,190 @@
+"""Words of commands and parameters of nodes that programs do not read as they were meant.
+
+Source: https://design.ros2.org/articles/ros_command_line_arguments.html
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, last_name, text
+
+SIM_TIME = "use_sim_time"
+OPTION = re.compile(r"--?[a-zA-Z]")
+DETACH = frozenset({"setsid", "nohup", "disown", "tmux", "screen", "&"})
+STARTS_NODES = frozenset({"?", "Node", "LifecycleNode", "GroupAction", "IncludeLaunchDescription", "OpaqueFunction"})
+
+
+def _commands(file: LaunchFile) -> Iterator[list[ast.expr]]:
+    """Yield the words of every command that is a list, and is not one for a shell."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        node = last_name(call.func) == "Node"
+        given = file.value(argument(call, "arguments") if node else argument(call, "cmd"))
+        shell = argument(call, "shell")
+        if isinstance(given, ast.List) and not (isinstance(shell, ast.Constant) and shell.value):
+            yield given.elts
+
+
+def glued_words(file: LaunchFile) -> Iterator[Place]:
+    """Find several words of a command line in one item of the list."""
+    for words in _commands(file):
+        for word in words:
+            parts = text(word).split()
+            if len(parts) > 1 and OPTION.match(parts[0]):
+                apart = ", ".join(repr(part) for part in parts)
+                yield (
+                    word.lineno,
+                    f"{text(word).strip()!r} is one word here, with spaces in it: the program gets it as a single "
+                    f"argument. Each word is an item of its own: {apart}",
+                )
+            elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in ast.walk(word)):
+                yield (
+                    word.lineno,
+                    "file name and --ros-args are one word here, with spaces in it: each word of a command is an item "
+                    "of its own in the list",
+                )
+
+
+def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
+    """Find `name:=value` without the words that make it a parameter."""
+    for call, words in _of_processes(file):
+        said = [text(word) for word in words]
+        for before, word in zip(["", *said], words, strict=False):
+            value = text(word)
+            if " " in value or not value.lstrip("_-").startswith(SIM_TIME):
+                continue
+            if value.startswith(("_", "-")):
+                yield word.lineno, f"{value} sets no parameter in ROS 2: the words are --ros-args -p {SIM_TIME}:=true"
+                continue
+            if before not in ("-p", "--param") and value.startswith(f"{SIM_TIME}:="):
+                yield word.lineno, f"-p is missing before {value!r}: without it, this is no parameter"
+            elif before in ("-p", "--param") and "--ros-args" not in said and last_name(call.func) != "Node":
+                yield (
+                    word.lineno,
+                    f"--ros-args is missing before -p {value}: words before it belong to the program, and ROS does not "
+                    "read them",
+                )
+            elif before in ("-p", "--param") and ":=" not in value:
+                yield word.lineno, f"a parameter is written NAME:=VALUE, with := and no spaces: {SIM_TIME}:=true"
+
+
+def _of_processes(file: LaunchFile) -> Iterator[tuple[ast.Call, list[ast.expr]]]:
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        name = "arguments" if last_name(call.func) == "Node" else "cmd"
+        given = file.value(argument(call, name))
+        if isinstance(given, ast.List):
+            yield call, given.elts
+
+
+def detached(file: LaunchFile) -> Iterator[Place]:
+    """Find a program that is started where Ctrl-C does not reach it."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
+        for node in (each for part in given if part is not None for each in ast.walk(part)):
+            for word in text(node).split():
+                if word in DETACH and isinstance(node, ast.Constant):
+                    yield (
+                        node.lineno,
+                        f"{word} takes the program away from the launch, so that Ctrl-C does not reach it: the actions "
+                        "of a launch run beside each other without that",
+                    )
+
+
+def parameters_for_what_follows(file: LaunchFile) -> Iterator[Place]:
+    """Find a SetParameter that stands behind all nodes which it could be meant for."""
+    for call in file.calls("LaunchDescription"):
+        given = file.value(argument(call, "initial_entities", 0))
+        actions = [file.value(each) for each in given.elts] if isinstance(given, ast.List) else []
+        kinds = [last_name(each.func) if isinstance(each, ast.Call) else "?" for each in actions]
+        for place, (kind, action) in enumerate(zip(kinds, actions, strict=True)):
+            behind = "Node" in kinds[:place] and not set(kinds[place:]) & STARTS_NODES
+            if kind in ("SetParameter", "SetUseSimTime", "SetRemap", "PushRosNamespace") and behind and action:
+                yield (
+                    action.lineno,
+                    f"{kind} reaches only the actions behind it in the list, and all nodes stand before it",
+                )
+
+
+def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
+    """Find a bridge that gets its configuration as a file of ROS parameters, or under another name."""
+    for call in file.calls("Node"):
+        if text(argument(call, "executable")) != "parameter_bridge":
+            continue
+        given = file.value(argument(call, "parameters"))
+        arguments = argument(call, "arguments")
+        if not isinstance(given, ast.List):
+            continue
+        names = [text(key) for each in given.elts if isinstance(each, ast.Dict) for key in each.keys]
+        files = [each for each in given.elts if not isinstance(file.value(each), ast.Dict)]
+        if "config_file" in names or arguments is not None:
+            continue
+        if files and ".yaml" in ast.unparse(file.value(files[0]) or files[0]):
+            yield (
+                files[0].lineno,
+                "a path in the list of parameters is a file of ROS parameters; the bridge's file is the value of its "
+                "parameter config_file: parameters=[{'config_file': PATH}]",
+            )
+        elif other := next((name for name in names if name and name not in (SIM_TIME, "lazy")), ""):
+            yield (
+                given.lineno,
+                f"the bridge gets a parameter called {other}, which it does not know: its file is the value of "
+                "config_file",
+            )
+
+
+def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
+    """Find a SetParameter that is to reach a program which no Node starts."""
+    programs = []
+    for call in file.calls("ExecuteProcess"):
+        words = [text(each) for part in (*call.args, *call.keywords) for each in ast.walk(part)]
+        if any(word.endswith(".py") for word in words) and not any(SIM_TIME in word for word in words):
+            programs.append(call)
+    for call in file.calls("SetParameter", "SetUseSimTime"):
+        if programs:
+            yield (
+                call.lineno,
+                f"{last_name(call.func)} reaches the Node actions behind it alone; the ExecuteProcess in line "
+                f"{programs[0].lineno} gets no parameters but those in its own command",
+            )
+
+
+def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
+    """Find use_sim_time declared as an argument of the launch that nothing reads."""
+    declared = [call for call in file.calls("DeclareLaunchArgument") if text(argument(call, "name", 0)) == SIM_TIME]
+    said = [each for each in file.nodes if SIM_TIME in text(each)]
+    inherited = any(file.calls("IncludeLaunchDescription"))
+    for call in declared if len(said) == len(declared) and not inherited else ():
+        yield (
+            call.lineno,
+            f"the argument {SIM_TIME} is declared, but nothing reads it: an argument of the launch reaches a node only "
+            "where LaunchConfiguration hands it over",
+        )
+
+
+def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
+    """Find gz_sim.launch.py included without the one argument that it reads; it inherits those of its includer."""
+    if any(text(each) == "gz_args" for each in file.nodes):
+        return
+    for call in file.calls("IncludeLaunchDescription"):
+        parts = [file.value(each) if isinstance(each, ast.Name) else each for each in ast.walk(call)]
+        if not any("gz_sim.launch.py" in text(each) for part in parts if part for each in ast.walk(part)):
+            continue
+        given = file.value(argument(call, "launch_arguments", 1))
+        if given is None:
+            yield call.lineno, "gz_sim.launch.py gets no gz_args here, so gz sim gets no world and no -r"
+            continue
+        keys = [text(key) for each in ast.walk(given) if isinstance(each, ast.Dict) for key in each.keys if key]
+        if keys and all(keys):
+            yield (
+                given.lineno,
+                f"gz_sim.launch.py has no argument called {keys[0]}: all that gz sim gets, world and -r too, is the "
+                "text gz_args",
+            )
+
+
+LOOKS = (
+    glued_words, simulator_arguments, parameters_on_the_command_line, bridge_parameters, sim_time_for_others,
+    arguments_for_nobody, detached, parameters_for_what_follows,
+)  # fmt: skip

@@ -1,0 +1,41 @@
+"""Explanations for errors of a bridge's configuration whose own text does not say what was mistaken for what.
+
+Source: the keys and values of ros_gz_bridge 1.0 (Jazzy), ros_gz_bridge/README.md.
+"""
+
+from __future__ import annotations
+
+import re
+
+# Pattern of an error -> what is mistaken. {0} is the first group of the pattern.
+MEANINGS = (
+    (
+        re.compile(r"cannot become ((?:gz|ignition)::\S+::\w+)|conversion is known for ((?:gz|ignition)::\S+)"),
+        "{0} is the name of a class in C++; this file writes Gazebo's types with points, gz.msgs.NAME",
+    ),
+    (
+        re.compile(r"(\w+::(?:msg::)?\w+) is not a ROS message type"),
+        "{0} is the name of a class in C++; this file writes it with slashes, package/msg/Name",
+    ),
+    (
+        re.compile(r"the direction '([\[\]@])' is none of"),
+        "{0} belongs to the topics on the command line of parameter_bridge; in this file, the direction is one of "
+        "these words",
+    ),
+    (
+        re.compile(r"expected a bridge .*found the text '([^']*@[^']*)'"),
+        "that is how a bridge is given on the command line; in this file, each of its parts has a key of its own",
+    ),
+    (
+        re.compile(r"expected <block end>, but found '(?:\?|<block)"),
+        "a line begins in another column than those it belongs to: all keys of one entry stand below each other",
+    ),
+)
+
+
+def bridge_meaning(error: str) -> str:
+    """Return what is mistaken for what, given the text of an error; empty if it is unknown."""
+    for pattern, words in MEANINGS:
+        if match := pattern.search(error):
+            return words.format(next((group for group in match.groups() if group), ""))
+    return ""

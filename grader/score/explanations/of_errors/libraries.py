@@ -1,0 +1,177 @@
+"""What errors of NumPy, cv_bridge, message_filters, and of rclpy's parameters and actions mean; for `python_errors.py`.
+
+Only errors with a certain cause are listed. Source: the error texts of NumPy 1.26 and 2, cv_bridge and message_filters
+of ROS 2 Jazzy, and rclpy 7.1.
+"""
+
+from __future__ import annotations
+
+import re
+
+# Pattern of an error -> what to change. {0}, {1} are the groups of the pattern.
+MEANINGS = (
+    # arrays
+    (
+        re.compile(r"ValueError: The truth value of an array with more than one element is ambiguous"),
+        "`and`, `or`, `not` and `if` ask for one truth value, and an array has many: conditions on arrays are combined "
+        "with &, | and ~, each in brackets, as in (a > 1) & (b < 2)",
+    ),
+    (
+        re.compile(r"TypeError: ufunc 'bitwise_(?:and|or)' not supported for the input types"),
+        "& and | bind stronger than comparisons: each condition needs brackets, as in (a > 1) & (b < 2)",
+    ),
+    (
+        re.compile(r"TypeError: unsupported operand type\(s\) for [&|]: '(?:float|numpy\.float\d+)'"),
+        "& and | bind stronger than comparisons: each condition needs brackets, as in (a > 1) & (b < 2)",
+    ),
+    (
+        re.compile(r"ValueError: cannot reshape array of size (\d+) into shape \((\d+), ?(\d+)(?:, ?\d+)?\)"),
+        "{0} numbers do not make that shape: an image has height rows of width pixels, a colour image 3 numbers of 8 "
+        "bits for each pixel, a depth image of 32FC1 one float32 (np.frombuffer(data, dtype=np.float32))",
+    ),
+    (
+        re.compile(r"IndexError: index (\d+) is out of bounds for axis (\d) with size (\d+)"),
+        "axis {1} has the places 0 to size - 1; an image or a map is indexed [row, column], that is [y, x]",
+    ),
+    (
+        re.compile(r"ValueError: operands could not be broadcast together with shapes (\([\d, ]*\)) (\([\d, ]*\))"),
+        "two arrays of the shapes {0} and {1} do not fit together number by number",
+    ),
+    (
+        re.compile(r"TypeError: only (?:length-1|size-1|0-dimensional) arrays can be converted"),
+        "an array stands where one number belongs: functions of math take one number, those of NumPy (np.cos, "
+        "np.isfinite) take arrays",
+    ),
+    (
+        re.compile(r"IndexError: only integers, slices"),
+        "an index is a whole number: int(...)",
+    ),
+    (
+        re.compile(r"TypeError: (?:list|tuple|array) indices must be integers(?: or slices)?, not (?:numpy\.)?float"),
+        "an index is a whole number: int(...)",
+    ),
+    (
+        re.compile(r"TypeError: (?:list|tuple) indices must be integers or slices, not tuple"),
+        "a list of lists is indexed grid[row][column]; grid[row, column] needs an array of NumPy",
+    ),
+    (
+        re.compile(r"(?:ValueError: cannot convert float NaN|OverflowError: cannot convert float infinity) to integer"),
+        "a range of a ray that hit nothing is inf, or NaN, and is no place: leave out what is not isfinite() before "
+        "int(...)",
+    ),
+    (
+        re.compile(r"OverflowError: signed char is (greater|less) than (?:maximum|minimum)"),
+        "data of an OccupancyGrid are whole numbers of 8 bits, -1 (unknown), 0 (free) to 100 (occupied): one of yours "
+        "is {0} than 8 bits can hold",
+    ),
+    (
+        re.compile(r"TypeError: '(?:float|numpy\.float\d+)' object cannot be interpreted as an integer"),
+        "a whole number is needed there: int(...), or .astype(np.int8) for a whole array",
+    ),
+    (
+        re.compile(
+            r"TypeError: (?:only integer scalar arrays can be converted to a scalar index|"
+            r"'list' object cannot be interpreted as an integer)"
+        ),
+        "data of a map is one list of whole numbers, row after row: .flatten().tolist() makes it of an array of rows",
+    ),
+    # pictures
+    (
+        re.compile(r"(?:Attribute|Type)Error: '(Image|CompressedImage)' object (?:has no attribute|is not subscr)"),
+        "a message of the type {0} is no array: CvBridge().imgmsg_to_cv2(message, 'rgb8') makes one",
+    ),
+    (
+        re.compile(r"CvBridgeError: (?:.*is not a color format|.*do not have the same number of channel)"),
+        "a picture of colours and one of numbers (32FC1: depth in metres) cannot be converted into each other: ask for "
+        "rgb8 for the camera's, 32FC1 for the depth camera's",
+    ),
+    (
+        re.compile(r"TypeError: (?:\w+\.)*(\w+)\(\) takes 2 positional arguments but 3 were given"),
+        "{0} is called with two things: the callback of a synchronizer gets one message of each topic, as in "
+        "def {0}(self, image, depth)",
+    ),
+    (
+        re.compile(r"TypeError: ApproximateTimeSynchronizer\.__init__\(\) missing 1 required positional argument"),
+        "the order is ApproximateTimeSynchronizer([subscriber, subscriber], queue_size, slop in seconds)",
+    ),
+    (
+        re.compile(r"TypeError: (?:Approximate)?TimeSynchronizer\.__init__\(\) takes"),
+        "the subscribers are one list: TimeSynchronizer([subscriber, subscriber], 10)",
+    ),
+    (
+        re.compile(r"AttributeError: 'Subscriber' object has no attribute '(\w+)'"),
+        "a message_filters.Subscriber hands its messages to registerCallback(...), or to a synchronizer",
+    ),
+    # parameters
+    (
+        re.compile(
+            r"TypeError: (?:unsupported operand type\(s\) for .*'Parameter'|.*not supported between .*'Parameter'|"
+            r"must be real number, not Parameter|bad operand type for .*'Parameter'|float\(\) .* not 'Parameter')"
+        ),
+        "get_parameter('NAME') returns a Parameter; its value is get_parameter('NAME').value",
+    ),
+    (
+        re.compile(
+            r"(?:unsupported operand type\(s\) for .*|not supported between .*|real number, not )'?ParameterValue'?"
+        ),
+        "get_parameter_value() has one field for each type, such as .double_value; .value of the parameter is simpler",
+    ),
+    (
+        re.compile(r"ParameterNotDeclaredException: Invalid access to undeclared parameter\(s\): (\w+)"),
+        "declare_parameter('{0}', DEFAULT) must have been called before, in __init__, with the same name",
+    ),
+    (
+        re.compile(r"ParameterAlreadyDeclaredException"),
+        "a parameter is declared once, in __init__; afterwards get_parameter('NAME').value reads it",
+    ),
+    # actions
+    (
+        re.compile(r"AttributeError: 'ServerGoalHandle' object has no attribute '(set_\w+|cancel(?:led|l?ing)?)'"),
+        "{0} is no method of rclpy's goal handle (set_... are those of ROS 1): a goal ends with goal_handle.succeed(), "
+        "canceled() or abort(), without arguments, and the result is returned",
+    ),
+    (
+        re.compile(r"AttributeError: 'ServerGoalHandle' object has no attribute 'is_(?:preempt|cancel)\w*'"),
+        "whether the client wants to cancel is goal_handle.is_cancel_requested, without brackets",
+    ),
+    (
+        re.compile(r"AttributeError: 'ServerGoalHandle' object has no attribute '(\w+)'"),
+        "{0} is no attribute of the goal handle: what the client asks for is in goal_handle.request, and the result is "
+        "returned",
+    ),
+    (
+        re.compile(r"AttributeError: '\w+_Goal' object has no attribute 'request'"),
+        "goal_callback gets the goal itself, and execute a goal handle: goal.waypoints there, "
+        "goal_handle.request.waypoints here",
+    ),
+    (
+        re.compile(r"AttributeError: '(\w+)_(Goal|Result|Feedback)' object has no attribute '(\w+)'"),
+        "the {1} of {0}.action has no field {2}: ros2 interface show prints its fields",
+    ),
+    (
+        re.compile(r"AttributeError: type object '(\w+)' has no attribute '(\w+)'"),
+        "{0} has no {1}: an action has the parts {0}.Goal, {0}.Result and {0}.Feedback",
+    ),
+    (
+        re.compile(r"TypeError: 'bool' object is not callable"),
+        "what is called is a truth value: is_cancel_requested and is_active are written without brackets",
+    ),
+    (
+        re.compile(r"TypeError: ServerGoalHandle\.(\w+)\(\) takes 1 positional argument but 2 were given"),
+        "{0}() takes no argument: execute returns the result",
+    ),
+    (
+        re.compile(r"RuntimeError: no running event loop"),
+        "rclpy's executor runs coroutines without asyncio: asyncio.sleep() and the like cannot be awaited in a "
+        "callback; time.sleep() in a MultiThreadedExecutor, or a Future that a timer completes, waits",
+    ),
+    (
+        re.compile(r"TypeError: object (\w+) can't be used in 'await' expression"),
+        "only a coroutine or a Future can be awaited, and this is a {0}: leave out await",
+    ),
+    (
+        re.compile(r"TypeError: '(Point|Vector3|Pose)' object is not (?:subscriptable|iterable)|"
+                   r"TypeError: cannot unpack non-iterable (?:Point|Vector3) object"),
+        "a point is no list: its coordinates are .x, .y and .z",
+    ),
+)  # fmt: skip

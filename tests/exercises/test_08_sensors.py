@@ -1,0 +1,156 @@
+"""Wrong points, counts and stops in the hall are named by what they are."""
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Line, Poses, Signal
+
+FOLDER = Path(__file__).parents[2] / "exercises/08_sensors"
+CHECKS = runpy.run_path(str(FOLDER / "checks.py"))
+WORDS = runpy.run_path(str(FOLDER / "misconceptions.py"))
+POSTS = {
+    "red_1": (2.2, 0.15),
+    "red_2": (-1.2, 2.0),
+    "red_3": (-2.0, -1.4),
+    "blue_1": (0.3, 1.45),
+    "orange_1": (1.5, -1),
+}
+TURN = 8.0  # [s] from 1 s on
+
+
+class Hall:
+    """A recording of a robot that stands for a second, turns once, and drives to a post; and what its node said."""
+
+    def __init__(self, points=lambda ahead, left: (ahead, left), count=3, sees=lambda names: names, stop=1.0):
+        now = np.arange(0.0, 20.0, 0.04)
+        yaw = np.clip((now - 1.0) / TURN, 0, 1) * 2 * np.pi
+        driven = np.clip(now - 12.0, 0, 1) * (2.2 - 0.12 - 0.12 - stop)
+        direction = np.arctan2(0.15, 2.2)
+        yaw = np.where(now > 11.0, 2 * np.pi + direction, yaw)
+        self.signals = {
+            "truth/robot/x": (now, driven * np.cos(direction)),
+            "truth/robot/y": (now, driven * np.sin(direction)),
+            "truth/robot/yaw": (now, yaw),
+            "truth/robot/distance": (now, driven),
+            "truth/robot/angular_z": (now, np.where((now > 1) & (now < 1 + TURN), 2 * np.pi / TURN, 0)),
+            "topics/cmd_vel/linear/x": (now, 0 * now),
+            "topics/imu/angular_velocity/z": (now, np.gradient(yaw, now)),
+        }
+        self.end_ns, self.ended_s, self.frame = 20_000_000_000, 20.0, "camera_link"
+        self.suspects = []
+        at, said = [], []
+        for t in np.arange(0.2, 10.0, 0.2):
+            here = (0.0, 0.0, float(np.interp(t, now, yaw)))
+            visible = {}
+            for name, place in POSTS.items():
+                ahead, left = CHECKS["before_camera"](here, place)
+                if ahead > 0.3 and abs(np.arctan2(left, ahead)) < 0.5 and name.startswith("red"):
+                    visible[name] = points(ahead - CHECKS["RADIUS"], left)
+            for name in sees(list(visible)):
+                at.append(t)
+                said.append((*visible[name], 0.0))
+        self.pictures = np.arange(0.2, 10.0, 0.2)
+        said = np.array(said).reshape(-1, 3)
+        self.signals |= {f"topics/red_post/point/{axis}": (at, said[:, i]) for i, axis in enumerate("xyz")}
+        self.signals["topics/red_post/header/stamp"] = (at, at)
+        self.signals["topics/red_post/count"] = (at, np.ones(len(at)))
+        self.signals["topics/camera/image/header/stamp"] = self.signals["topics/camera/image/count"] = (
+            self.pictures,
+        ) * 2
+        if count is not None:
+            self.signals["topics/red_count/data"] = ([1 + TURN], [count])
+
+    def signal(self, name):
+        times, values = self.signals.get(name, (np.empty(0), np.empty(0)))
+        return Signal(np.round(np.asarray(times) * 1e9).astype(np.int64), np.asarray(values, dtype=float))
+
+    def entities(self, below, component=""):
+        return [f"world/{name}" for name in POSTS]
+
+    def poses(self, entity):
+        x, y = POSTS[entity.removeprefix("world/")]
+        return Poses(np.zeros(1), np.array([[x, y, 0.25]]), np.zeros((1, 4)))
+
+    def lines(self, entity):
+        return [Line(0, self.frame, "INFO")] if "red_post" in entity else []
+
+    def properties(self, name):
+        return {"duration": 20.0}
+
+    def facts(self):
+        return {"suspects": self.suspects}
+
+    def found(self, name):
+        return CHECKS[name](self, {})
+
+
+def test_a_right_run_passes():
+    names = ("places_the_posts", "turns_once", "counts_the_posts", "stops_before_the_post")
+    assert [Hall().found(name).passed for name in names] == [True] * 4
+
+
+@pytest.mark.parametrize(
+    ("hall", "words"),
+    [
+        (Hall(lambda a, b: (a, b / a)), "it lacks the factor ahead"),
+        (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from another place"),
+        (Hall(lambda a, b: (1.0, b / a)), "every distance is 1.00 m"),
+        (Hall(lambda a, b: (1.5 * a, 1.5 * b)), "the distances are 1.50 times the right ones"),
+        (Hall(lambda a, b: (a, 0.0)), "point.y is always 0"),
+        (Hall(lambda a, b: (0.0, 0.0)), "every point is at (0, 0)"),
+        (Hall(sees=lambda names: [name for name in names if name != "red_3"]), "the farthest, 2.4 m away"),
+        (Hall(sees=lambda names: names if names == ["red_1"] else []), "at least"),
+    ],
+)
+def test_wrong_points_are_named(hall, words):
+    finding = hall.found("places_the_posts")
+    assert not finding.passed and words in finding.explanation + finding.expected, finding
+
+
+@pytest.mark.parametrize(
+    ("count", "words"),
+    [
+        (0, "self.posts is empty"),
+        (5, "the number of all posts"),
+        (1, "as many"),
+    ],
+)
+def test_wrong_counts_are_named(count, words):
+    finding = Hall(count=count).found("counts_the_posts")
+    assert not finding.passed and (words in finding.explanation or count == 1), finding
+
+
+def test_a_stop_at_the_wrong_place_is_named_unless_something_else_was_wrong_before():
+    far = Hall(stop=1.4).found("stops_before_the_post")
+    assert not far.passed and not far.gated and "too far away by 0.41 m" in far.explanation
+    spoilt = Hall(stop=1.4, count=9).found("stops_before_the_post")
+    assert not spoilt.passed and spoilt.gated and not spoilt.explanation
+
+
+def test_a_robot_that_turns_on_and_on_is_told_the_line():
+    hall = Hall(count=None)
+    times, yaw = hall.signals["truth/robot/yaw"]
+    hall.signals["truth/robot/yaw"] = (times, 3 * yaw)
+    assert "your heading never reached a full turn" in hall.found("turns_once").explanation
+    hall.suspects = [{"line": 52, "about": "gyroscope", "said": "a step counts for 0.01 s"}]
+    assert hall.found("turns_once").explanation == "line 52: a step counts for 0.01 s"
+
+
+def test_the_number_again_and_again():
+    hall = Hall()
+    hall.signals["topics/red_count/data"] = (9 + 0.1 * np.arange(20), np.full(20, 3.0))
+    assert "comes again every 0.1 s" in hall.found("counts_the_posts").explanation
+
+
+def test_rules_for_the_same_post():
+    here = np.array([[2.0, 0.0], [0.0, 2.0], [2.0, 0.1], [0.0, 2.1]])
+    told = {words.partition(":")[0]: number for words, number in WORDS["ways_to_count"](here, here, np.zeros(4))}
+    assert told["that is the number if points up to 3 m apart are one post"] == 1
+    assert told["that is the number if points more than 0.05 m apart are two posts"] == 4
+    assert (
+        told["that is the number if each point is compared with the last one only, and not with all known posts"] == 4
+    )
+    assert told["that is the number if posts at the same distance are one"] == 1

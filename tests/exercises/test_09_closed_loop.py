@@ -1,0 +1,85 @@
+"""What a wall follower's commands depend on is found out from the run, in scans drawn at random."""
+
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Signal
+
+FOLDER = Path(__file__).parents[2] / "exercises/09_closed_loop"
+STEERING = runpy.run_path(str(FOLDER / "steering.py"))
+WALL = runpy.run_path(str(FOLDER / "wall.py"))
+
+BEARINGS = np.linspace(-np.pi, np.pi, 180, endpoint=False)
+SCANS = 300
+
+
+def walls(draw, side):
+    """Ranges to a straight wall on a side, at distances and headings drawn at random."""
+    distance, turned = draw.uniform(0.4, 1.0, SCANS), draw.uniform(-0.8, 0.8, SCANS)
+    with np.errstate(divide="ignore"):
+        along = distance[:, None] / np.cos(BEARINGS - side * np.pi / 2 - turned[:, None])
+    return np.where(along > 0, np.minimum(along, 5.0), 5.0)
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """A run along two walls that move independently, and the scans of it."""
+    draw = np.random.default_rng(9)
+    ranges = np.minimum(walls(draw, 1), walls(draw, -1))
+    ranges[:, np.abs(BEARINGS) < 0.35] = draw.uniform(0.7, 3.0, (SCANS, 1))
+    ranges += draw.normal(0, 0.005, ranges.shape)
+    return 1.0 + 0.1 * np.arange(SCANS), BEARINGS, ranges
+
+
+def run(times, rates, side="left"):
+    signal = Signal(np.round((times + 0.01) * 1e9).astype(np.int64), rates)
+    recording = SimpleNamespace(signal=lambda name: signal)
+    return SimpleNamespace(recording=recording, sign=1.0, side=side, times=times, wanted=np.full(len(times), 0.6))
+
+
+CONTROLLERS = {
+    "": lambda has: 2 * (has["right"][:, 1] - np.pi / 2 + 2 * (has["right"][:, 0] - 0.6)),
+    "the nearest point on the right": lambda has: (
+        2 * (has["other side"][:, 1] + 2 * (0.6 - has["other side"][:, 0]) + 1.6)
+    ),
+    "depends on the distance alone": lambda has: 2 * (has["right"][:, 0] - 0.6),
+    "straight to the left alone": lambda has: 2 * (has["beside"][:, 0] - 0.6),
+    "the range ahead alone": lambda has: -1 / has["ahead"][:, 0],
+    "the ray on the right": lambda has: 2 * (has["beside, other"][:, 0] - 0.6),
+}
+
+
+@pytest.mark.parametrize("words", CONTROLLERS)
+def test_what_the_commands_follow_is_named(seen, words):
+    times, bearings, ranges = seen
+    rates = CONTROLLERS[words](STEERING["measured"](bearings, ranges))
+    said = STEERING["measures"](run(times, rates), times, bearings, ranges)
+    assert words in said if words else said == ""
+
+
+def test_commands_by_chance_follow_nothing(seen):
+    rates = np.random.default_rng(1).normal(0, 1, SCANS)
+    assert STEERING["measures"](run(seen[0], rates), *seen) == ""
+
+
+def test_few_scans_say_nothing(seen):
+    times, bearings, ranges = (seen[0][:20], seen[1], seen[2][:20])
+    assert STEERING["measures"](run(times, np.ones(20)), times, bearings, ranges) == ""
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ([2.0] * 9, "is always 2.00"),
+        ([0.2, 0.3, -0.1], "becomes negative"),
+        ([0.2, 0.8, 0.8, 0.8], "is limited to 0.80, but 0.5 is the limit"),
+        ([0.9, 1.4, 0.7], "is never within 0 and 0.5"),
+        ([0.1] * 30 + [0.9, 1.4], "is not limited"),
+    ],
+)
+def test_commands_beyond_their_limits_are_described(values, words):
+    assert words in WALL["limits_missed"]("linear.x", np.array(values), 0.0, 0.5)

@@ -1,0 +1,139 @@
+"""Wrong patrols are named: where the robot went, how fast, what its feedback says; a right patrol has none of it."""
+
+import json
+import runpy
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Line, Signal
+
+CHECKS = runpy.run_path(str(Path(__file__).parents[2] / "exercises/10_actions/patrol_checks.py"))
+POINTS = [[1.2, 0.0], [1.2, 0.7]]
+FROM, STEP = 1.0, 0.05  # [s] when the patrol is accepted, and between two ticks
+
+
+class Patrol:
+    """A recording of one patrol, driven along straight lines at a speed [m/s]."""
+
+    def __init__(self, places=POINTS, speed=0.4, status="SUCCEEDED", visited=2, after=0.0):
+        corners = [(0.0, 0.0), *map(tuple, places)]
+        way, yaws, index = [(0.0, 0.0)] * round(FROM / STEP), [0.0] * round(FROM / STEP), [0] * round(FROM / STEP)
+        for number, (here, there) in enumerate(pairwise(corners)):
+            length = np.hypot(there[0] - here[0], there[1] - here[1])
+            for share in np.arange(0, 1, speed * STEP / length):
+                way.append((here[0] + share * (there[0] - here[0]), here[1] + share * (there[1] - here[1])))
+                yaws.append(np.arctan2(there[1] - here[1], there[0] - here[0]))
+                index.append(number)
+        self.end = len(way) * STEP
+        way += [(way[-1][0] + after * STEP * i, way[-1][1]) for i in range(20)]
+        self.times = np.arange(len(way)) * STEP
+        self.way, self.index = np.array(way), index
+        yaws += [yaws[-1]] * 20
+        fast = np.where((self.times > FROM) & (self.times < self.end), speed, 0.0)
+        fast[self.times >= self.end] = after
+        self.signals = {
+            "truth/robot/x": self.way[:, 0],
+            "truth/robot/y": self.way[:, 1],
+            "truth/robot/yaw": np.array(yaws),
+            "truth/robot/linear_x": fast,
+            "truth/robot/angular_z": 0 * fast,
+            "topics/cmd_vel/linear/x": fast,
+        }
+        self.events = [
+            (0.2, "interface", "", {"fault": ""}),
+            (0.9, "sent", "patrol", {"waypoints": POINTS, "speed": 0.4}),
+        ]
+        self.events += [(FROM, "accepted", "patrol", {})]
+        if status:
+            self.events.append((self.end, "result", "patrol", {"status": status, "visited": visited}))
+            self.events.append((self.end + 0.5, "sent", "cancelled", {"waypoints": POINTS, "speed": 0.3}))
+
+    def feedback(self, distance, waypoint=lambda i: i):
+        """Add feedback every half second: `distance` of dx and dy to the waypoint."""
+        for number in range(round(FROM / STEP), round(self.end / STEP), 10):
+            i = self.index[number]
+            dx, dy = np.array(POINTS[i]) - self.way[number]
+            said = {"waypoint": waypoint(i), "distance": float(distance(dx, dy))}
+            self.events.append((number * STEP, "feedback", "patrol", said))
+        return self
+
+    def signal(self, name):
+        values = self.signals.get(name, np.empty(0))
+        return Signal(np.round(self.times[: len(values)] * 1e9).astype(np.int64), values)
+
+    def lines(self, entity):
+        told = sorted(self.events, key=lambda event: event[0])
+        return [
+            Line(round(at * 1e9), json.dumps({"number": 0, "event": event, "goal": goal} | more), "INFO")
+            for at, event, goal, more in told
+            if entity == "topics/dispatcher/data"
+        ]
+
+    def facts(self):
+        return {}
+
+
+def found(name, patrol):
+    return CHECKS[name](patrol, {})
+
+
+def test_a_right_patrol_passes():
+    patrol = Patrol().feedback(np.hypot)
+    assert [found(name, patrol).passed for name in ("visits", "speed", "feedback", "result")] == [True] * 4
+
+
+@pytest.mark.parametrize(
+    ("patrol", "words"),
+    [
+        (Patrol([[0.0, 1.2], [0.7, 1.2]], status=""), "x and y of the waypoints are exchanged"),
+        (Patrol([[1.2, 0.0], [1.2, -0.7]], status=""), "y of the waypoints has the wrong sign"),
+        (Patrol([[1.2, 0.0], [2.4, 0.7]], status=""), "as seen from the one before"),
+        (Patrol([[1.2, 0.7], [1.2, 0.0]], status=""), "in the opposite order"),
+        (Patrol([[1.2, 0.0], [1.2, 0.4]]), "holds a waypoint for reached too early"),
+        (Patrol([[1.2, 0.0]]), "after the first waypoint"),
+        (Patrol([[0.01, 0.0]]), "before the robot had moved"),
+        (Patrol(after=0.1), "drives on when the patrol is over"),
+    ],
+)
+def test_where_the_robot_went_is_named(patrol, words):
+    finding = found("visits", patrol)
+    assert not finding.passed and words in finding.explanation, finding
+
+
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [(0.2, "linear.x is half of it"), (0.8, "twice as much"), (1.44, "km/h"), (0.3, "slower than the goal says")],
+)
+def test_another_speed_is_named(speed, words):
+    finding = found("speed", Patrol(speed=speed))
+    assert not finding.passed and words in finding.explanation, finding
+
+
+@pytest.mark.parametrize(
+    ("distance", "words"),
+    [
+        (lambda dx, dy: 0.0 * dx + dy * dy + dx * dx, "the square of how far it is"),
+        (lambda dx, dy: 100 * np.hypot(dx, dy), "in centimetres"),
+        (lambda dx, dy: -np.hypot(dx, dy), "negative"),
+        (lambda dx, dy: np.abs(dy), "along y alone"),
+    ],
+)
+def test_another_distance_is_named(distance, words):
+    finding = found("feedback", Patrol().feedback(distance))
+    assert not finding.passed and words in finding.explanation, finding
+
+
+@pytest.mark.parametrize(
+    ("waypoint", "words"),
+    [(lambda i: 0, "is always 0"), (lambda i: 2 - i, "counts down"), (lambda i: i + 1, "counts the waypoints from 1")],
+)
+def test_another_index_is_named(waypoint, words):
+    finding = found("feedback", Patrol().feedback(np.hypot, waypoint))
+    assert not finding.passed and words in finding.explanation, finding
+
+
+def test_the_index_of_the_last_waypoint_is_no_count():
+    assert "the index of the last waypoint" in found("result", Patrol(visited=1)).explanation

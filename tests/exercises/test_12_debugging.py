@@ -1,0 +1,79 @@
+"""What is said about a cart that parks wrongly: the misconception, from the distances and the commands."""
+
+import runpy
+
+import numpy as np
+import pytest
+
+from gz_course.grader.exercise.exercise import course_root
+
+NAMES = runpy.run_path(str(course_root() / "exercises/12_debugging/misconceptions.py"))
+MOUNT = (-0.2, 0.0, 0.19)
+TRUTH = np.linspace(3.0, 1.0, 40)
+DISTANCE = 1.0 + 2.0 * np.exp(-np.linspace(0.0, 5.0, 60))
+
+
+def driven(distance, left, gain=1.5, fastest=0.6):
+    return distance, np.clip(gain * left, -fastest, fastest), 1.0
+
+
+@pytest.mark.parametrize(
+    ("seen", "sign", "words"),
+    [
+        ((0.2, 0.0, -0.19), -1, "parent and child are swapped"),
+        ((0.2, 0.0, -0.19), 1, "its numbers are the place of base_link"),
+        ((0.2, 0.0, 0.19), 1, "the sign of x is wrong"),
+        ((-0.2, 0.0, -0.19), 1, "the sign of z is wrong"),
+        ((-0.2, 0.0, 0.25), 1, "above the ground"),
+        ((-200.0, 0.0, 190.0), 1, "in millimetres"),
+        ((0.0, -0.2, 0.19), 1, "at the wrong axes"),
+        ((0.0, 0.0, 0.0), 1, "at the same place"),
+        ((-0.3, 0.1, 0.19), 1, ""),
+    ],
+)
+def test_the_place_of_the_lidar(seen, sign, words):
+    found = NAMES["of_a_mount"](seen, MOUNT, sign)
+    assert words in found and bool(words) == bool(found)
+
+
+@pytest.mark.parametrize(
+    ("measured", "words"),
+    [
+        (TRUTH + 0.01, ""),
+        (TRUTH + 0.2, "measured from the lidar"),
+        (TRUTH + 0.4, "with the wrong sign"),
+        (TRUTH - 0.2, "from the front of the cart"),
+        (TRUTH * 100, "in centimetres"),
+        (-TRUTH, "has the wrong sign"),
+        (np.full(40, 0.8), "every distance is 0.80 m"),
+        (TRUTH * 0.5, "nearer than the wall"),
+        (TRUTH * 1.5, "too large"),
+        (TRUTH[:3] * 9, ""),
+    ],
+)
+def test_the_distance_to_the_wall(measured, words):
+    found = NAMES["of_a_distance"](measured, TRUTH[: len(measured)], MOUNT[0])
+    assert words in found and bool(words) == bool(found)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (driven(DISTANCE, DISTANCE - 1.0), ""),
+        (driven(DISTANCE, 1.0 - DISTANCE), "the sign of linear.x"),
+        (driven(DISTANCE, 0.0 * DISTANCE), "every command is zero"),
+        (driven(DISTANCE, DISTANCE - 0.5, gain=0.8), "to 0.50 m from the wall, not to the 1 m that stop_at says"),
+        (
+            driven(DISTANCE, (DISTANCE - 1.0) * (np.arange(60) % 3 > 0)),
+            "34 % of the commands before it comes to rest are zero",
+        ),
+        (driven(DISTANCE, DISTANCE - 1.2), "from the front of the cart"),
+        (driven(DISTANCE[:12], DISTANCE[:12] - 1.0, gain=0.1), "still on its way"),
+        (driven(DISTANCE, np.sign(DISTANCE - 1.0)), "it does not fall"),
+        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "to 1.00 m from the wall, not to the 0.7 m that stop_at"),
+        (driven(DISTANCE[:3], DISTANCE[:3]), ""),
+    ],
+)
+def test_the_commands(given, words):
+    found = NAMES["of_a_driver"](*given)
+    assert words in found and bool(words) == bool(found), found

@@ -1,0 +1,102 @@
+"""What is wrong with how a robot explored, or with what its map leaves out."""
+
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Signal
+from gz_course.grader.score.floor import Shapes
+
+FOLDER = Path(__file__).parents[2] / "exercises/13_capstone"
+DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
+NOW = np.arange(0.0, 36.0, 0.2)
+
+
+def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, suspects=()):
+    """A recording as these functions see it."""
+    signals = {f"truth/robot/{name}": values for name, values in (("x", x), ("y", y), ("yaw", yaw))}
+    signals["truth/robot/distance"] = np.cumsum(np.hypot(np.diff(x, prepend=x[:1]), np.diff(y, prepend=y[:1])))
+    signals |= {"topics/cmd_vel/linear/x": ahead, "topics/cmd_vel/angular/z": turning}
+    times = np.round(NOW * 1e9).astype(np.int64)
+    return SimpleNamespace(
+        signal=lambda name: Signal(times[: len(signals[name])], signals[name]),
+        end_ns=36_000_000_000,
+        facts=lambda: {"suspects": list(suspects)},
+    )
+
+
+@pytest.mark.parametrize(
+    ("commands", "words"),
+    [
+        ({"ahead": np.empty(0), "turning": np.empty(0)}, "no command came"),
+        ({}, "all of its 180 commands were 0"),
+        ({"turning": 1 + 0 * NOW}, "linear.x was 0 in every command"),
+        ({"ahead": 0.3 + 0 * NOW}, ""),
+    ],
+)
+def test_why_a_robot_never_drove(commands, words):
+    said = DRIVING.stands(recording(**commands))
+    assert words in said if words else said == ""
+
+
+@pytest.mark.parametrize(
+    ("run", "words"),
+    [
+        (recording(x=0.5 * NOW, ahead=0.5 + 0 * NOW), ""),
+        (recording(x=0.1 * NOW, ahead=0.1 + 0 * NOW), "0.10 m/s at most, too slow"),
+        (recording(yaw=NOW, ahead=0.3 + 0 * NOW), "turned around 6 times"),
+        (recording(x=np.sin(NOW), y=np.cos(NOW), yaw=NOW, ahead=1 + 0 * NOW), "drove in circles"),
+        (recording(x=np.sin(NOW), y=np.cos(NOW), ahead=1 + 0 * NOW), "within 2.0 by 2.0 m"),
+        (recording(yaw=NOW, suspects=[{"line": 7, "about": "heading", "said": "half"}]), "line 7: half"),
+    ],
+)
+def test_why_a_robot_did_not_see_all(run, words):
+    said = DRIVING.slow_or_lost(run)
+    assert words in said if words else said == ""
+
+
+def test_what_was_touched_ahead_and_beside():
+    shapes = Shapes([("crate", (1.0, 0.0, 0.0), np.array([0.5, 0.5]))], [])
+    assert DRIVING.nearest_point(shapes, (0.3, 0.0)) == pytest.approx(np.array([0.5, 0.0]), abs=0.02)
+    assert "straight at it" in DRIVING.touched(recording(), 0.18, 0, (0.2, 0.0))
+    assert "its left side, 90 degrees from ahead" in DRIVING.touched(recording(), 0.18, 0, (0.0, 0.18))
+
+
+def grids():
+    """A map with a wall, what the scanner has hit, and cells that rays passed."""
+    said, wanted, passed = np.full((80, 100), -1.0), np.zeros((80, 100), bool), np.zeros((80, 100), bool)
+    wanted[20, 10:80] = True
+    passed[21:40, 10:80] = True
+    return said, wanted, passed
+
+
+@pytest.mark.parametrize(
+    ("value", "words"), [(0, "are free in the map"), (-1, "are unknown in the map"), (100, ""), (50, "")]
+)
+def test_walls_that_are_missing(value, words):
+    said, wanted, _ = grids()
+    said[wanted] = value
+    found = DRIVING.walls_missing(said, wanted, None)
+    assert words in found if words else found == ""
+    assert ("between 26 and 64, such as 50" in DRIVING.unclear(said, wanted)) == (value == 50)
+
+
+def test_walls_that_were_there_before():
+    said, wanted, _ = grids()
+    before = said.copy()
+    before[wanted] = 100
+    assert "each scan must be added" in DRIVING.walls_missing(said, wanted, before)
+
+
+def test_cells_that_are_not_free():
+    said, _, passed = grids()
+    assert "most rays, or most scans, are left out" in DRIVING.not_free(said, passed, 0 * passed)
+    said[passed] = 0
+    others = np.roll(passed, 30, axis=0)
+    assert "only rays with a hit" in DRIVING.not_free(said, passed, others)
+    assert DRIVING.not_free(said, passed, passed) == ""
+    said[:, ::2] = -1
+    assert "steps along a ray" in DRIVING.not_free(said, passed, 0 * passed)

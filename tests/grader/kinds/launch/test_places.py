@@ -1,0 +1,34 @@
+"""Mistakes in the files of a launch are facts of its run, and come before what the checks say."""
+
+from pathlib import Path
+
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.kinds.launch import plan
+from gz_course.grader.submission import Submission
+
+LAUNCH = b"""\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    driver = Node(package="a", executable="b")
+    return LaunchDescription([DeclareLaunchArgument("world", default_value="bay.sdf")])
+"""
+
+
+def test_the_places_of_every_file_are_recorded_with_its_name(record):
+    files = {"bringup.launch.py": LAUNCH, "driver_node.py": b"def main():\n    pass\n", "bridge.yaml": b"[]"}
+    facts = plan(find_exercise("12"), Submission(Path(), "bringup.launch.py", "", files=files)).facts
+    assert {name: [(each["file"], each["line"]) for each in found] for name, found in facts.items()} == {
+        "launch_slips": [("bringup.launch.py", 7)],
+        "declared": [("bringup.launch.py", 8)],
+        "slips": [("driver_node.py", 1)],
+    }
+    said = [remark(record(facts=facts), []) for remark in find_kind("launch").diagnosis().remarks]
+    assert [words.partition(":")[0] for words in said if words] == [
+        "bringup.launch.py, line 7",
+        "driver_node.py, line 1",
+    ]

@@ -1,0 +1,169 @@
+"""Mistakes in launch files, each in a file that is right but for it."""
+
+import pytest
+
+from gz_course.grader.lint.launch_files import launch_places
+
+RIGHT = """\
+import sys
+from pathlib import Path
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction, RegisterEventHandler, TimerAction
+from launch.conditions import IfCondition, UnlessCondition
+from launch.event_handlers import OnProcessExit
+from launch.substitutions import LaunchConfiguration, PythonExpression
+from launch_ros.actions import Node, SetParameter
+
+HERE = Path(__file__).parent
+
+
+def later(context):
+    if LaunchConfiguration("paused").perform(context) == "true":
+        return [ExecuteProcess(cmd=["echo", "it is paused"])]
+    return []
+
+
+def generate_launch_description():
+    world, paused = LaunchConfiguration("world"), LaunchConfiguration("paused")
+    stands = ExecuteProcess(cmd=["gz", "sim", "-s", world], condition=IfCondition(paused))
+    runs = ExecuteProcess(cmd=["gz", "sim", "-s", "-r", world], condition=UnlessCondition(paused))
+    create = Node(package="ros_gz_sim", executable="create", arguments=["-name", "robot"])
+    bridge = Node(
+        package="ros_gz_bridge",
+        executable="parameter_bridge",
+        parameters=[{"config_file": str(HERE / "bridge.yaml")}],
+    )
+    watch = ExecuteProcess(
+        cmd=[sys.executable, str(HERE / "watch.py"), "--ros-args", "-p", "use_sim_time:=true"],
+    )
+    after = RegisterEventHandler(OnProcessExit(target_action=create, on_exit=[bridge]))
+    return LaunchDescription([
+        DeclareLaunchArgument("world", default_value="empty.sdf"),
+        DeclareLaunchArgument("paused", default_value="false"),
+        stands, runs, create, after,
+        TimerAction(period=2.0, actions=[watch]),
+        OpaqueFunction(function=later),
+    ])
+"""
+
+
+def slips(text):
+    return [place["said"] for place in launch_places(text.encode())["launch_slips"]]
+
+
+def test_a_right_file_has_none():
+    found = launch_places(RIGHT.encode())
+    assert found["launch_slips"] == found["fixed_worlds"] == []
+    assert [(each["name"], each["default"]) for each in found["declared"]] == [
+        ("world", "empty.sdf"),
+        ("paused", "false"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"-s", world]', '"-s", f"{world}"]', "puts a description of the object world into the text"),
+        ('"-s", world]', '"-s", str(world)]', "puts a description of the object world into the text"),
+        ('"-s", world]', '"-s", "{}".format(world)]', "puts a description of the object world into the text"),
+        ('"-s", world]', '"-s", "%s" % world]', "puts a description of the object world into the text"),
+        ("    create =", '    if paused == "true":\n        pass\n    create =', "paused == 'true' is decided while"),
+        ('"-s", "-r", world]', '"-s", *(["-r"] if not paused else []), world]', "always counts as true"),
+        ('.perform(context) == "true":', ".perform(context):", "'false' as well: compare it"),
+        ('.perform(context) == "true":', '.perform(context) == "True":', "'true' in small letters, not 'True'"),
+        ('.perform(context) == "true":', ".perform(context) is True:", "'true' in small letters, not 'True'"),
+        ("IfCondition(paused)", 'LaunchConfigurationEquals("paused", "True")', "'true' in small letters, not 'True'"),
+        ("IfCondition(paused)", 'LaunchConfigurationEquals("paused", "true")', ""),
+        (
+            "IfCondition(paused)",
+            "IfCondition(PythonExpression([\"'\", paused, \"' == 'True'\"]))",
+            "'true' in small letters, not 'True'",
+        ),
+        ('world, paused = LaunchConfiguration("world")', "world, paused = sys.argv[1]", "sys.argv is the command"),
+        ("stands, runs, create, after", "stands, runs, after, bridge", ""),
+        ("stands, runs, create, after,", "stands, runs, create,", "after is made here, but it is not in"),
+        ("        return [ExecuteProcess", "        [ExecuteProcess", "is made and then dropped"),
+        (
+            '        return [ExecuteProcess(cmd=["echo", "it is paused"])]\n    return []',
+            '        ExecuteProcess(cmd=["echo", "it is paused"])',
+            "later returns nothing",
+        ),
+        ("OpaqueFunction(function=later)", "OpaqueFunction(function=later(None))", "calls the function at once"),
+        ("        OpaqueFunction(function=later),\n", "", "later makes actions, but nothing calls it"),
+        ("target_action=create", "target_action=runs", "only when gz sim has ended"),
+        ("target_action=create", "target_action=bridge", "only when parameter_bridge has ended"),
+        ("period=2.0", "period=30.0", "waits 30 s"),
+        ('"sim", "-s", world]', '"sim" "-s", world]', 'a comma is missing between "sim" and "-s"'),
+        ('["gz", "sim", "-s", world]', '["setsid", "gz", "sim", "-s", world]', "setsid takes the program away"),
+        ("create = Node(", 'create = Node(prefix="nohup", ', "nohup takes the program away"),
+        ("stands, runs,", "stands, SetParameter('use_sim_time', True), runs,", ""),
+        ("create, after,", "create, after, SetParameter('use_sim_time', True),", ""),
+        ("create, after,", "create, after, PushRosNamespace('a'),", ""),
+        ("function=later),", "function=later), *[PushRosNamespace('a')]", ""),
+        ('"-s", world], condition=IfCondition', '"-s", world], condition=UnlessCondition', "no -r, so its world is"),
+        ('"-r", world], condition=UnlessCondition', '"-r", world], condition=IfCondition', "UnlessCondition is the"),
+        ('"--ros-args", "-p", "use', '"--ros-args -p use', "is one word here"),
+        ('"-s", "-r"', '"-s -r"', "'-s', '-r'"),
+        ('str(HERE / "watch.py"), "--ros-args", ', 'f"{HERE}/watch.py --ros-args", ', "file name and --ros-args"),
+        ('"--ros-args", "-p", ', '"-p", ', "--ros-args is missing before"),
+        ('"--ros-args", "-p", ', '"--ros-args", ', "-p is missing before"),
+        ("use_sim_time:=true", "use_sim_time=true", "written NAME:=VALUE"),
+        ('"--ros-args", "-p", "use_sim', '"_use_sim', "sets no parameter in ROS 2"),
+        ('[{"config_file": str(HERE / "bridge.yaml")}]', '[str(HERE / "bridge.yaml")]', "is a file of ROS parameters"),
+        ('"config_file"', '"config"', "a parameter called config, which it does not know"),
+        (
+            ', "--ros-args", "-p", "use_sim_time:=true"],\n    )',
+            "],\n    )\n    stands = SetParameter('use_sim_time', True)",
+            "Node actions",
+        ),
+        (
+            ', "--ros-args", "-p", "use_sim_time:=true"],\n    )',
+            "],\n    )\n    stands = DeclareLaunchArgument('use_sim_time')",
+            "is declared, but nothing reads it",
+        ),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_named(old, new, words):
+    assert old in RIGHT
+    found = slips(RIGHT.replace(old, new, 1))
+    assert (words in "\n".join(found)) and bool(words) == bool(found), found
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("launch_arguments={'gz_args': ['-r -s ', world]}.items()", ""),
+        ("launch_arguments=[('gz_args', world)]", ""),
+        ("launch_arguments={'world': world, 'paused': 'true'}.items()", "has no argument called world"),
+        ("", "gets no gz_args"),
+    ],
+)
+def test_the_argument_of_the_included_simulator(arguments, words):
+    source = 'PathJoinSubstitution([FindPackageShare("ros_gz_sim"), "launch", "gz_sim.launch.py"])'
+    found = slips(
+        f"source = {source}\nworld = 'a.sdf'\nit = IncludeLaunchDescription(source, {arguments})\nprint(it)\n"
+    )
+    assert (words in "\n".join(found)) and bool(words) == bool(found), found
+
+
+def test_a_world_that_stands_in_a_command_is_found():
+    found = launch_places(RIGHT.replace('"-s", world]', '"-s", "depot.sdf"]').encode())
+    assert [place["world"] for place in found["fixed_worlds"]] == ["depot.sdf"]
+
+
+@pytest.mark.parametrize(
+    ("listed", "words"),
+    [
+        ("Node(executable='a'), SetParameter('use_sim_time', True)", "SetParameter reaches only the actions behind it"),
+        ("SetParameter('use_sim_time', True), Node(executable='a')", ""),
+        ("Node(executable='a'), SetParameter('use_sim_time', True), *others", ""),
+    ],
+)
+def test_what_follows_a_parameter_of_the_scope(listed, words):
+    found = slips(f"LaunchDescription([{listed}])\n")
+    assert words in "".join(found) and bool(words) == bool(found)
+
+
+def test_what_is_no_python_has_no_places():
+    assert launch_places(b"def (") == {}

@@ -1,0 +1,74 @@
+"""Mistakes with the callbacks of an action server, and of parameters, in a file that is right but for each."""
+
+import pytest
+
+from gz_course.grader.lint.slips import slips
+
+RIGHT = """\
+import time
+import rclpy
+from rclpy.action import ActionServer
+from rclpy.executors import MultiThreadedExecutor
+
+
+class Server(rclpy.node.Node):
+    def __init__(self):
+        super().__init__("server")
+        self.add_on_set_parameters_callback(self.on_change)
+        self.server = ActionServer(
+            self, Patrol, "patrol", self.execute, goal_callback=self.on_goal, cancel_callback=self.on_cancel
+        )
+
+    def on_change(self, parameters):
+        return SetParametersResult(successful=True)
+
+    def on_goal(self, goal):
+        if not goal.waypoints:
+            return GoalResponse.REJECT
+        return GoalResponse.ACCEPT if goal.speed > 0 else GoalResponse.REJECT
+
+    def on_cancel(self, handle):
+        return CancelResponse.ACCEPT
+
+    def execute(self, handle):
+        while self.left() > 0.1:
+            time.sleep(0.1)
+        handle.succeed()
+        return Patrol.Result()
+
+
+def main():
+    rclpy.init()
+    rclpy.spin(Server(), MultiThreadedExecutor(4))
+
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+def test_a_right_file_has_none():
+    assert slips(RIGHT.encode()) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("return CancelResponse.ACCEPT", "return True", "return CancelResponse.ACCEPT or CancelResponse.REJECT"),
+        ("        return CancelResponse.ACCEPT", "        handle.stop()", "returns nothing, which is no answer"),
+        ("return GoalResponse.REJECT\n", "return False\n", "goal_callback returns False"),
+        ("return GoalResponse.ACCEPT if goal.speed > 0 else GoalResponse.REJECT", "return goal.speed > 0", "no answer"),
+        ("        return Patrol.Result()\n", "", "execute returns nothing"),
+        (", MultiThreadedExecutor(4)", "", "keeps the only thread"),
+        ("return SetParametersResult(successful=True)", "self.changed = parameters", "must return SetParametersResult"),
+        ("return SetParametersResult(successful=True)", "return True", "must return SetParametersResult"),
+    ],
+)
+def test_each_is_found(old, new, words):
+    assert old in RIGHT
+    assert words in " ".join(each["said"] for each in slips(RIGHT.replace(old, new, 1).encode()))
+
+
+def test_a_coroutine_with_one_thread_is_right():
+    changed = RIGHT.replace("def execute", "async def execute").replace(", MultiThreadedExecutor(4)", "")
+    assert slips(changed.encode()) == []

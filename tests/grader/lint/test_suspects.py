@@ -1,0 +1,81 @@
+"""Places that are wrong in most programs: each is found in a file that is right but for it, and not in a right one."""
+
+import pytest
+
+from gz_course.grader.lint.suspects import suspects
+
+RIGHT = """\
+from math import atan2, cos, pi, radians, sin
+
+PERIOD = 0.04
+
+
+class Robot:
+    def on_odom(self, message):
+        q = message.pose.pose.orientation
+        self.heading = 2 * atan2(q.z, q.w)
+        self.yaw = atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+
+    def on_imu(self, message):
+        now = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
+        rate = message.angular_velocity.z
+        bias = sum(self.rates) / len(self.rates)
+        dt = now - self.last
+        self.heading += (rate - bias) * dt
+        self.last = now
+
+    def on_scan(self, scan):
+        side = [r for i, r in enumerate(scan.ranges) if abs(scan.angle_min + i * scan.angle_increment - pi / 2) < 0.5]
+        turn = atan2(self.goal.y - self.y, self.goal.x - self.x) - self.heading
+        command.angular.z = 2 * turn
+        self.place = cos(radians(90)) * min(side), sin(turn)
+"""
+
+
+def test_a_right_file_has_none():
+    assert suspects(RIGHT.encode()) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "about", "words"),
+    [
+        ("2 * atan2(q.z, q.w)", "q.z", "heading", "the sine of half of it"),
+        ("2 * atan2(q.z, q.w)", "message.pose.pose.orientation.w", "heading", "the cosine of half of it"),
+        ("2 * atan2(q.z, q.w)", "atan2(q.z, q.w)", "heading", "that is half of it"),
+        ("self.heading = 2 * atan2(q.z, q.w)", "self.heading = atan2(q.w, q.z)", "heading", "the sine first"),
+        (
+            "atan2(self.goal.y - self.y, self.goal.x - self.x)",
+            "atan2(self.goal.x - self.x, self.goal.y - self.y)",
+            "heading",
+            "atan2 takes y first",
+        ),
+        ("sin(turn)", "sin(degrees(turn))", "angle", "an angle in degrees"),
+        ("turn = atan2", "turn = 180 / pi * degrees(1) + atan2", "angle", "angular.z gets degrees per second"),
+        ("radians(90)", "radians(scan.angle_min)", "angle", "in radians already"),
+        ("* dt", "* 0.01", "gyroscope", "the same time"),
+        ("* dt", "* PERIOD", "gyroscope", "the same time"),
+        ("(rate - bias) * dt", "rate - bias", "gyroscope", "without a time"),
+        ("self.heading += (rate", "self.heading = (rate", "gyroscope", "forgets what was turned before"),
+        ("(rate - bias) * dt", "(rate - bias) * dt\n        self.heading %= 2 * pi", "gyroscope", "jump back"),
+        ("angular_velocity.z", "angular_velocity.x", "gyroscope", "tilting"),
+        ("message.header.stamp.sec + message", "message", "gyroscope", "begins again at 0 every second"),
+        (" + message.header.stamp.nanosec / 1e9", "", "gyroscope", "whole seconds only"),
+        ("sum(self.rates) / len(self.rates)", "(sum(self.rates) - 1)", "gyroscope", "the bias is the mean"),
+        ("min(side)", "scan.ranges[90]", "ray", "takes a ray by its number"),
+        ("min(side)", "min(scan.ranges)", "ray", "the nearest in any direction"),
+        (
+            "self.last = now",
+            "self.last = now\n        if self.heading > 360:\n            pass",
+            "gyroscope",
+            "not 360",
+        ),
+    ],
+)
+def test_each_is_found(old, new, about, words):
+    assert old in RIGHT
+    found = suspects(RIGHT.replace(old, new, 1).encode())
+    assert any(each["about"] == about and words in each["said"] for each in found), found
+
+
+def test_what_is_no_python_has_none():
+    assert suspects(b"def (:") == []

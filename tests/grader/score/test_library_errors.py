@@ -1,0 +1,90 @@
+"""What errors of NumPy and of rclpy's parameters mean, and those that execute raised."""
+
+from math import cos
+
+import numpy as np
+import pytest
+from nav_msgs.msg import OccupancyGrid
+
+from gz_course.grader.score.action_errors import execute_raised
+from gz_course.grader.score.python_errors import meaning
+
+ARRAY = np.arange(6.0)
+ROWS = [[1]]
+
+
+def fill(values):
+    OccupancyGrid().data = values
+
+
+@pytest.mark.parametrize(
+    ("mistake", "words"),
+    [
+        (lambda: ARRAY > 1 and ARRAY < 2, "each in brackets"),
+        (lambda: ARRAY > 1.0 & ARRAY, "bind stronger"),
+        (lambda: ARRAY.reshape(4, 2), "do not make that shape"),
+        (lambda: np.zeros((80, 100))[99, 0], "[row, column]"),
+        (lambda: ARRAY + np.zeros(2), "do not fit together"),
+        (lambda: cos(ARRAY), "np.cos"),
+        (lambda: ROWS[ARRAY[0] / 2], "a whole number"),
+        (lambda: ROWS[0, 0], "grid[row][column]"),
+        (lambda: int(float("inf")), "isfinite()"),
+        (lambda: fill([200]), "-1 (unknown), 0 (free) to 100"),
+        (lambda: fill(ARRAY), ".astype(np.int8)"),
+        (lambda: fill(np.zeros((2, 2), dtype=int)), "one list of whole numbers"),
+    ],
+)
+def test_a_mistake_with_arrays_is_explained(mistake, words):
+    with pytest.raises(Exception) as told:
+        mistake()
+    assert words in meaning(f"{told.type.__name__}: {told.value}".splitlines()[0])
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        ("TypeError: unsupported operand type(s) for -: 'float' and 'Parameter'", "get_parameter('NAME').value"),
+        ("TypeError: '<' not supported between instances of 'Parameter' and 'int'", "get_parameter('NAME').value"),
+        ("ParameterNotDeclaredException: Invalid access to undeclared parameter(s): side", "declare_parameter('side'"),
+        ("AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'", "those of ROS 1"),
+        ("AttributeError: 'ServerGoalHandle' object has no attribute 'waypoints'", "goal_handle.request"),
+        ("AttributeError: 'Patrol_Goal' object has no attribute 'request'", "the goal itself"),
+        ("AttributeError: 'Image' object has no attribute 'shape'", "imgmsg_to_cv2"),
+        ("RuntimeError: no running event loop", "without asyncio"),
+        ("TypeError: Robot.on_pictures() takes 2 positional arguments but 3 were given", "def on_pictures(self, image"),
+    ],
+)
+def test_an_error_of_a_library_is_explained(error, words):
+    assert words in meaning(error)
+
+
+def lines(*texts):
+    return [(1.0, "[ERROR] [server.action_server]: Error raised in execute callback: no"), *((1.0, t) for t in texts)]
+
+
+def test_what_execute_raised_is_named_with_its_line(record):
+    told = lines(
+        "Traceback (most recent call last):",
+        '  File "/x/rclpy/action/server.py", line 336, in _execute_goal',
+        '  File "/submission/node.py", line 62, in execute',
+        "    goal_handle.set_succeeded(result)",
+        "AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'",
+    )
+    said = execute_raised(record({}, lines=told, submission="node.py"), {})
+    assert "(node.py, line 62); rclpy then ends the goal as ABORTED. What that means: set_succeeded is no" in said
+
+
+def test_feedback_of_another_type_is_named(record):
+    told = lines(
+        "Traceback (most recent call last):",
+        '  File "/submission/node.py", line 6, in execute',
+        "    goal_handle.publish_feedback(0.5)",
+        '  File "/x/rclpy/action/server.py", line 136, in publish_feedback',
+        "    raise TypeError()",
+        "TypeError",
+    )
+    assert "such as Patrol.Feedback(...)" in execute_raised(record({}, lines=told, submission="node.py"), {})
+
+
+def test_nothing_is_said_where_execute_raised_nothing(record):
+    assert execute_raised(record({}, lines=[(1.0, "[INFO] [a]: Goal accepted")], submission="node.py"), {}) == ""

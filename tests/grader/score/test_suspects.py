@@ -1,0 +1,10 @@
+"""The suspect that a check names."""
+
+from gz_course.grader.score.suspects import suspect
+
+FOUND = [{"line": 3, "about": "angle", "said": "a"}, {"line": 7, "about": "heading", "said": "b"}]
+
+
+def test_the_first_one_about_that_thing_is_named(record):
+    told = record({}, facts={"suspects": FOUND})
+    assert suspect(told, "heading", "ray") == "line 7: b" and suspect(told, "gyroscope") == ""
