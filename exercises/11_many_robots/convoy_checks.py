@@ -273,6 +273,8 @@ def keeps_together(recording, parameters):
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
             elif not recording.has(f"topics/{name}/{DRIVES}/count"):
                 why = f"its node publishes nothing on /{name}/{DRIVES}"
+                if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
+                    why = "no bridge carries /clock, so the timer of a node with use_sim_time never fires"
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
         reason = _reason(sent) if sent else ""
         times, x, y = paths[name]
