@@ -51,7 +51,10 @@ def described(recording, parameters):
         return Finding(False, expected, f"{PUBLISHER[1:]} ended with exit code {died.code}{died.words}")
     ends = [end for end in facts.get("endpoints", []) if end["node"] == PUBLISHER]
     if not any((end["kind"], end["topic"]) == ("publisher", "/robot_description") for end in ends):
-        return Finding(False, expected, f"no node {PUBLISHER} published /robot_description")
+        others = [end for end in facts.get("endpoints", []) if end["topic"].endswith("/robot_description")]
+        other = next((end for end in others if end["kind"] == "publisher"), None)
+        why = f"{other['node']} publishes {other['topic']}: it has another name, or a namespace" if other else ""
+        return Finding(False, expected, f"no node {PUBLISHER} published /robot_description", explanation=why)
     if not any(end["topic"] == "/clock" for end in ends):
         measured = f"{PUBLISHER} ran without use_sim_time: it does not follow /clock"
         return Finding(False, expected, measured, explanation="its transforms get the time of the computer")

@@ -243,6 +243,15 @@ def _below_its_namespace(topic, name):
     return f"{relative} does not begin with /, so it is put into the namespace /{name}: write /{relative}"
 
 
+def _reason(sent):
+    """Return the misconception that fits the commands of a follower; empty if none does."""
+    speed, turning = FITS["speed"](sent), FITS["turning"](sent)
+    if FITS["PLACES"] in speed:
+        turning = ""  # the same fault
+    turns = f"it turns another way than to the place of the robot in front: {turning}" if turning else ""
+    return "; and ".join(filter(None, (speed, turns)))
+
+
 def keeps_together(recording, parameters):
     """Pass if the first robot drives, and each other one is behind the one in front all the time."""
     names, called = _names(recording)
@@ -264,11 +273,10 @@ def keeps_together(recording, parameters):
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
             elif not recording.has(f"topics/{name}/{DRIVES}/count"):
                 why = f"its node publishes nothing on /{name}/{DRIVES}"
+                if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
+                    why = "no bridge carries /clock, so the timer of a node with use_sim_time never fires"
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reasons = [FITS[about](sent) for about in ("speed", "turning")] if sent else []
-        fits = "; and ".join(filter(None, reasons))
-        if reasons and FITS["PLACES"] in reasons[0]:
-            fits = reasons[0]  # the angle has the same fault
+        reason = _reason(sent) if sent else ""
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]
         gap = np.hypot(np.interp(times, front_times, front_x) - x, np.interp(times, front_times, front_y) - y)
@@ -278,8 +286,8 @@ def keeps_together(recording, parameters):
             why = "it drives on where the distance is the gap, and should stand there"
             if gap[worst] > GAP:
                 why = "it falls behind, or turns another way than to the place of the robot in front"
-            return Finding(False, expected, measured, float(times[worst]), explanation=fits or why)
+            return Finding(False, expected, measured, float(times[worst]), explanation=reason or why)
         if abs(gap[-1] - GAP) > AT_REST:
             measured = f"{called}, {name} ended {gap[-1]:.2f} m from {front}"
-            return Finding(False, expected, measured, float(times[-1]), explanation=fits)
+            return Finding(False, expected, measured, float(times[-1]), explanation=reason)
     return Finding(True, expected, f"{called}, all {len(names)} robots kept together")

@@ -155,7 +155,10 @@ def speed(every):
 
 
 def _lengths(h):
-    yield np.hypot(h.front_x - h.x, h.front_y - h.y), f"the distance that it keeps is wrong: {PLACES}"
+    yield (
+        np.hypot(h.front_x - h.x, h.front_y - h.y),
+        f"it falls behind, because the distance that it keeps is wrong: {PLACES}",
+    )
     yield h.ahead, "its speed depends on the distance along x only, not on the distance to the robot in front"
     yield h.front_x - h.x, f"its speed depends on the difference of the two x only, and {PLACES}"
     yield np.abs(h.ahead) + np.abs(h.aside), "it adds the distances along x and y: the distance is hypot(x, y)"
@@ -179,7 +182,7 @@ def _of_the_gap(v, slope, offset):
         return "it is slower the farther it is behind: the sign of its speed is wrong; it is distance - gap"
     gap = -offset / slope
     if abs(gap) < 0.1:
-        return "its speed is made of the distance alone: the gap of 1.2 m is not subtracted from it"
+        return "its speed is the distance times a number, so it drives on where the distance is the gap: subtract 1.2 m"
     if abs(gap - GAP) > WIDE:
         return f"its speed is zero at a distance of {gap:.2f} m, so that is the gap it keeps, not 1.2 m"
     if slope < 0.8:

@@ -61,6 +61,19 @@ MEANINGS = (
         "PathJoinSubstitution([...]) joins the parts of a path when the launch runs, and a list joins texts",
     ),
     (
+        re.compile(
+            r"TypeError: (?:can only concatenate str \(not \"int\"\) to str"
+            r"|'str' object cannot be interpreted as an integer"
+            r"|'[<>]=?' not supported between instances of '(?:str|int)' and '(?:str|int)')"
+        ),
+        "one of the two is a text, and the value of a launch argument always is: LaunchConfiguration(...)"
+        ".perform(context) gives '3', and int(...) makes a number of it",
+    ),
+    (
+        re.compile(r"there is no program 'xacro/"),
+        "Command joins its parts as they are, and the space behind xacro is missing: ['xacro ', path]",
+    ),
+    (
         re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
         "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
         "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is handed over",

@@ -98,7 +98,7 @@ def test_a_good_follower_has_no_misconception(delay):
         (lambda h: 0.5, "linear.x 0.50 m/s all the time"),
         (lambda h: 0.0, "made of gap - distance"),
         (lambda h: speed_of(distance(h) - 2 * GAP), "zero at a distance of 2.40 m"),
-        (lambda h: speed_of(distance(h)), "the gap of 1.2 m is not subtracted"),
+        (lambda h: speed_of(distance(h)), "it drives on where the distance is the gap"),
         (lambda h: speed_of(distance(h) - GAP, gain=0.3), "its gain is too small"),
         (lambda h: speed_of(distance(h) - GAP, most=0.3), "never drives faster than 0.30 m/s"),
         (lambda h: speed_of(distance(h) - GAP, least=0.2), "never drives slower than 0.20 m/s"),

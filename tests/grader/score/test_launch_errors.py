@@ -22,6 +22,12 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("there is no program 'gz sim -s ' to be started", "each word by itself"),
         ("ImportError: cannot import name 'Node' from 'launch.actions' (/x.py)", "from launch_ros.actions import Node"),
         ("NameError: name 'ExecuteProcess' is not defined", "import of ExecuteProcess is missing: from launch.actions"),
+        (
+            '/submission/c.launch.py:54: TypeError: can only concatenate str (not "int") to str',
+            "int(...) makes a number",
+        ),
+        ("x.py:3: TypeError: 'str' object cannot be interpreted as an integer", "int(...) makes a number"),
+        ("there is no program 'xacro/submission/robot.urdf.xacro' for Command to run", "['xacro ', path]"),
         ("NameError: name 'os' is not defined", "the import of os is missing"),
         ("TypeError: unsupported operand type(s) for /: 'PosixPath' and 'LaunchConfiguration'", "PathJoinSubstitution"),
         ('TypeError: can only concatenate str (not "LaunchConfiguration") to str', "a list joins texts"),

@@ -11,7 +11,7 @@ from gz_course.grader.score.explanations.of_robots.driving import (
     without_collision,
     wrong_axis,
 )
-from gz_course.grader.score.explanations.of_robots.masses import odd_mass
+from gz_course.grader.score.explanations.of_robots.masses import odd_mass, too_light
 from gz_course.grader.score.robots import LEVEL, Robot
 from gz_course.grader.score.steps import told
 
@@ -78,7 +78,7 @@ def falls_over(robot: Robot) -> str:
 
 def tips_over(robot: Robot) -> str:
     """Return why a robot that stood tips over once its wheels turn."""
-    if said := wrong_axis(robot) or odd_mass(robot):
+    if said := wrong_axis(robot) or odd_mass(robot) or too_light(robot):
         return said
     wheels, low = wheels_of(robot), robot.lowest_link()
     if low is None or not wheels:

@@ -130,6 +130,7 @@ ROLL = "-1.570796 0 0"
         ("falls", [('"-0.16 0 0.03"', '"-0.16 0 0.07"')], "nothing carries it in front or behind"),
         ("falls", [(ROLL, "0 0 0")], "the axle of left_wheel points along z"),
         ("tips", [("xyz='-0.04 0 0.08'", "xyz='-0.01 0 0.5'")], "centre of mass is 0.41 m above the ground"),
+        ("tips", [("<mass value='4'", "<mass value='0.1'")], "too little for a body of 0.34 x 0.2 x 0.1 m"),
         ("tips", [("<mass value='4'", "<mass value='1e11'")], "link base has a mass of 1e+11 kg"),
         (
             "above",
