@@ -241,8 +241,10 @@ def explored(recording, parameters):
         return Finding(True, expected, measured)
     driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
     turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
-    words = ""
-    if driven < MOVED:
+    words = why(recording, said, every) if not walls_are_right(recording, said) else ""
+    if words:  # who has a wrong map drives by it
+        pass
+    elif driven < MOVED:
         words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
         more = DRIVING.stands(recording)
         words += f" ({more})" if more else ": it saw what can be seen from its start"

@@ -37,7 +37,7 @@ def slow_or_lost(recording):
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
     if turns > TURNS and way < 0.1 * seconds:
-        said = suspect(recording, "heading", "angle", "ray") or (
+        said = suspect(recording, "heading", "angle", "ray", "wrap") or (
             "an angle to turn by must be brought between -pi and pi, and be measured from where the robot looks"
         )
         return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
