@@ -185,6 +185,8 @@ def why_somewhere(recording, points, stamps, right):
             if hits(placed(pose(recording, stamps - round(lag * 1e9)), x, y), red)[wrong].mean() >= 0.75:
                 return f"{words}the stamp is not that of the picture"
         return f"{words}colour and depth are of different times"
+    if said := misconceptions().other_depth(recording, points, stamps, right):
+        return said
     if directed(at, x, y, red)[wrong].mean() >= 0.75:
         return (
             "the directions are right and the distances are wrong: the depth picture (encoding 32FC1: float32, metres) "
@@ -349,10 +351,7 @@ def found_if(recording, when, factor):
 
 
 def stops_before_the_post(recording, parameters):
-    """Pass if the robot stands still, faces the nearest red post, and is 1 m before it.
-
-    Who has misplaced posts, or turned or counted wrongly, stops wrongly for that reason.
-    """
+    """Pass if the robot stands 1 m before the nearest red post; wrong points, turns or counts explain another stop."""
     found = stopped(recording)
     earlier = (places_the_posts, turns_once, counts_the_posts)
     if found.passed or all(check(recording, parameters).passed for check in earlier):

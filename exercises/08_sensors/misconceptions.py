@@ -82,8 +82,6 @@ def misplaced(recording, points, stamps, right):
         return said
     if said := one_thing(seen, ahead, left, right):
         return said
-    if said := other_depth(seen, ahead, left, right):
-        return said
     return suspect(recording, "angle")
 
 
@@ -122,9 +120,11 @@ def one_thing(seen, ahead, left, right):
     return ""
 
 
-def other_depth(seen, ahead, left, right):
+def other_depth(recording, points, stamps, right):
     """Find out what the distances are if the directions are right."""
-    wrong = ~right
+    wrong, at = ~right, CHECKS.pose(recording, stamps)
+    red, ahead, left = CHECKS.posts(recording, "red")[0], points[:, 0], points[:, 1]
+    seen = np.array([[CHECKS.before_camera(tuple(each[i] for each in at), p) for p in red] for i in range(len(ahead))])
     angles = np.arctan2(seen[:, :, 1], seen[:, :, 0])
     near = np.abs(angles - np.arctan2(left, ahead)[:, None]) <= 0.06
     known = near.any(axis=1) & wrong
@@ -132,7 +132,7 @@ def other_depth(seen, ahead, left, right):
         return ""
     which = np.where(near, seen[:, :, 0], np.inf).argmin(axis=1)
     true = seen[np.arange(len(ahead)), which]
-    straight, along = true[known, 0], np.hypot(*true[known].T)
+    straight = true[known, 0]
     ratio = ahead[known] / (straight - CHECKS.RADIUS)
     usual = float(np.median(ratio))
     if np.ptp(ahead[known]) < 0.02:
@@ -141,12 +141,23 @@ def other_depth(seen, ahead, left, right):
         )
     if abs(usual - 1) > 0.1 and np.mean(np.abs(ratio - usual) <= 0.08 * abs(usual)) > 0.8:
         return f"the directions are right, and the distances are {usual:.2f} times the right ones"
-    if np.median(ahead[known] - along) > 0.3:
+    if np.mean(np.abs(ahead - to_the_wall(at, np.arctan2(left, ahead)))[known] < 0.3) > 0.7:
         return (
-            "the directions are right and the distances too large: the depth is that of the wall behind the post, or a "
-            "mean with pixels beside it; take the median depth of the red pixels"
+            "the directions are right and the distances are those of the wall behind the posts: take the depth at the "
+            "red pixels"
         )
     return ""
+
+
+def to_the_wall(at, direction):
+    """Return how far ahead [m] of the camera the wall of the hall is in a direction [rad] from ahead."""
+    x, y, yaw = at
+    x, y = x + CHECKS.CAMERA_AHEAD * np.cos(yaw), y + CHECKS.CAMERA_AHEAD * np.sin(yaw)
+    c, s = np.cos(yaw + direction), np.sin(yaw + direction)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        across = np.where(c > 0, (CHECKS.HALL[0] - x) / c, (-CHECKS.HALL[0] - x) / c)
+        along = np.where(s > 0, (CHECKS.HALL[1] - y) / s, (-CHECKS.HALL[1] - y) / s)
+    return np.minimum(across, along) * np.cos(direction)
 
 
 def never_turned(recording):

@@ -23,6 +23,7 @@ def explain(run):
         on_off,
         other_side,
         gaps,
+        signs,
         nearest_anywhere,
         measures,
         counted_turns,
@@ -87,6 +88,11 @@ def rare_commands(run):
 def measures(run):
     times, bearings, ranges = scans(run)
     return STEERING["measures"](run, times, bearings, ranges) if len(times) else ""
+
+
+def signs(run):
+    times, bearings, ranges = scans(run)
+    return STEERING["signs"](run, times, bearings, ranges) if len(times) else ""
 
 
 def slow(run):
@@ -280,7 +286,8 @@ def nearest_anywhere(run):
         return ""
     first = nearer[0]
     after = (run.times > times[first]) & (run.times < lost[0])
-    if (run.sign * run.turning[after]).mean() > -0.5:
+    share = STEERING["follows"](run, times, bearings, ranges)
+    if (run.sign * run.turning[after]).mean() > -0.5 or (share and share["all around"] < share["right"] - 0.02):
         return ""
     other = "left" if run.side == "right" else "right"
     return (

@@ -131,9 +131,9 @@ def measures(run, times, bearings, ranges):
         and share["distance alone"] >= beside
     ):
         return (
-            "angular.z depends on the distance alone, and not on the heading towards the wall, so the robot comes to "
-            "the wanted distance at an angle, and overshoots: let the bearing of the nearest point, which should be "
-            "abeam, count too"
+            "angular.z depends on the distance alone: only the distance is fed back, not the heading towards the wall, "
+            "so the robot comes to the wanted distance at an angle, and overshoots; let the bearing of the nearest "
+            "point, which should be abeam, count too"
         )
     if beside > 0.95 and _clearly(beside, right):
         return (
@@ -153,6 +153,34 @@ def measures(run, times, bearings, ranges):
         return (
             f"angular.z follows the rays between about {low} and {high} degrees from ahead to the {run.side} only: the "
             "nearest point of the wall may be anywhere from ahead to behind on that side"
+        )
+    return ""
+
+
+def signs(run, times, bearings, ranges):
+    """Return words on a term of the turning rate with the wrong sign, by a linear fit; else nothing."""
+    heard, rates, asked = answered(run, times)
+    if heard.sum() < FEWEST:
+        return ""
+    point = measured(bearings, ranges[heard])["right"]
+    error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
+    clear = (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < 0.6)
+    if clear.sum() < FEWEST or min(error[clear].std(), away[clear].std()) < 0.02:
+        return ""
+    terms = np.stack([error[clear], away[clear], np.ones(clear.sum())], axis=1)
+    gains = np.linalg.lstsq(terms, rates[clear], rcond=None)[0]
+    left = rates[clear] - terms @ gains
+    if 1 - left.var() / max(rates[clear].var(), 1e-9) < 0.7:
+        return ""
+    if gains[0] < -0.3:
+        return (
+            f"the distance is fed back with the wrong sign: where the robot is too far from its wall ({run.side}), it "
+            "turns away from it, and where it is too near, towards it"
+        )
+    if gains[1] < -0.3:
+        return (
+            "the heading is fed back with the wrong sign: where the nearest point of the wall is ahead of abeam, the "
+            "robot must turn away from the wall, and it turns towards it"
         )
     return ""
 

@@ -80,6 +80,9 @@ def turned_wrong(run, chosen, points):
     beside = missed - way[after:]
     error = np.remainder(np.arctan2(beside[:, 1], beside[:, 0]) - yaw[after:] + np.pi, 2 * np.pi) - np.pi
     rate = run.angular.values[chosen][after:]
+    whole = np.abs(np.diff(yaw)).sum() / (2 * np.pi)
+    if whole > 1.5 and (said := suspect(run.recording, "wrap")):
+        return f"The robot turned around {whole:.1f} times: {said}"
     clear = (np.abs(error) > 0.3) & (np.abs(error) < 2.6) & (np.abs(rate) > 0.1)
     if clear.sum() >= 10 and np.mean(np.sign(error[clear]) != np.sign(rate[clear])) > 0.85:
         return (

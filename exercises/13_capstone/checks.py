@@ -129,12 +129,15 @@ def walls(recording, parameters):
     if share >= WALLS:
         return Finding(True, expected, measured)
     words = why(recording, said, scan) or DRIVING.unclear(said, wanted)
-    words = words or DRIVING.walls_missing(said, wanted, grid(recording, -10)[0] if many_maps(recording) else None)
+    words = words or DRIVING.walls_missing(said, wanted, earlier_walls(recording))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
-def many_maps(recording):
-    return len(recording.arrays(f"{MAP}/data")[0]) >= 20
+def earlier_walls(recording):
+    """Return which cells were occupied in one of the earlier maps; None if there are few."""
+    numbers = range(2, len(recording.arrays(f"{MAP}/data")[0]) - 1, 3)
+    maps = [said for number in numbers if (said := grid(recording, number)[0]) is not None]
+    return np.any([said >= OCCUPIED for said in maps], axis=0) if len(maps) > 2 else None
 
 
 def no_ghosts(recording, parameters):
@@ -241,8 +244,10 @@ def explored(recording, parameters):
         return Finding(True, expected, measured)
     driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
     turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
-    words = ""
-    if driven < MOVED:
+    words = why(recording, said, every) if not walls_are_right(recording, said) else ""
+    if words:  # who has a wrong map drives by it
+        pass
+    elif driven < MOVED:
         words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
         more = DRIVING.stands(recording)
         words += f" ({more})" if more else ": it saw what can be seen from its start"

@@ -37,7 +37,7 @@ def slow_or_lost(recording):
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
     if turns > TURNS and way < 0.1 * seconds:
-        said = suspect(recording, "heading", "angle", "ray") or (
+        said = suspect(recording, "heading", "angle", "ray", "wrap") or (
             "an angle to turn by must be brought between -pi and pi, and be measured from where the robot looks"
         )
         return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
@@ -100,12 +100,12 @@ def between_map(said):
     return (said > 25) & (said < 65)
 
 
-def walls_missing(said, wanted, first):
-    """Return why walls that were hit are not in the map: `said` in the end, `first` in an earlier map or None."""
+def walls_missing(said, wanted, before):
+    """Return why walls that were hit are not in the map `said`, given where any earlier map had walls, or None."""
     values = said[wanted]
-    if first is not None:
-        lost = (first >= 65) & ~grown(said >= 65)
-        if lost.sum() >= 20 and lost.sum() > 0.5 * (first >= 65).sum():
+    if before is not None:
+        lost = before & ~grown(said >= 65)
+        if lost.sum() >= 20 and lost.sum() > 0.2 * before.sum():
             return "walls that were in earlier maps are gone: each scan must be added to what is known, not replace it"
     if ((values >= 0) & (values <= 25)).mean() > 0.4:
         return (

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 Place = tuple[int, str]
-PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1}  # position; -1 for by name only
+# Position of each callback among the arguments; -1 for those that are given by name only.
+PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
+ENDS = ("succeed", "abort", "canceled")
 ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 
 
@@ -81,4 +84,33 @@ def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (answers, no_result, keeps_the_only_thread)
+def never_executed(tree: ast.AST) -> Iterator[Place]:
+    """Find a callback for accepted goals that does not execute them."""
+    for role, function in _callbacks(tree):
+        if role == "handle_accepted_callback" and not re.search(r"\bexecute\b|notify_execute", ast.unparse(function)):
+            yield (
+                function.lineno,
+                "handle_accepted_callback takes over what happens to an accepted goal, and this one never calls "
+                "goal_handle.execute(), so the goal is not executed: leave it out, or call it there",
+            )
+
+
+def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
+    """Find succeed() in execute above its first loop, not below a condition."""
+    for role, function in _callbacks(tree):
+        if role != "execute_callback" or isinstance(function, ast.Lambda):
+            continue
+        loop = next((each for each in function.body if isinstance(each, ast.While | ast.For)), None)
+        for statement in function.body:
+            call = statement.value if isinstance(statement, ast.Expr) else None
+            if loop is None or statement.lineno >= loop.lineno or not isinstance(call, ast.Call):
+                continue
+            name = ast.unparse(call.func)
+            if name.rpartition(".")[2] in ENDS:
+                yield (
+                    statement.lineno,
+                    f"{name}() ends the goal, and it stands above the loop that does the work: move it below",
+                )
+
+
+LOOKS = (answers, no_result, keeps_the_only_thread, never_executed, ends_before_it_drives)

@@ -126,4 +126,21 @@ def sine_first(tree: ast.AST) -> Iterator[Suspect]:
             yield node.lineno, "heading", f"{ast.unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
 
 
-LOOKS = (quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first)
+def differences(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the difference of a direction and a heading in a file that brings no angle between -pi and pi."""
+    text = ast.unparse(tree)
+    if re.search(
+        r"remainder\(|fmod\(|% |atan2\((?:math\.|np\.)?sin|arctan2\(np\.sin|(?:while|if) .*(?:>|<) -?(?:\w+\.)?pi", text
+    ):
+        return
+    for node in ast.walk(tree):
+        difference = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
+        if difference and HEADING.search(ast.unparse(node.right)) and calls(node.left) & {"atan2", "arctan2"}:
+            yield (
+                node.lineno,
+                "wrap",
+                f"{ast.unparse(node)[:60]} is not brought between -pi and pi, so the robot may turn the long way round",
+            )
+
+
+LOOKS = (quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first, differences)

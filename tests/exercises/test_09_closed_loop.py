@@ -61,6 +61,17 @@ def test_what_the_commands_follow_is_named(seen, words):
     assert words in said if words else said == ""
 
 
+@pytest.mark.parametrize(
+    ("distance", "heading", "words"),
+    [(2, 2, ""), (-2, 2, "the distance is fed back with"), (2, -2, "the heading is fed back with")],
+)
+def test_a_wrong_sign_is_named(seen, distance, heading, words):
+    point = STEERING["measured"](seen[1], seen[2])["right"]
+    rates = np.clip(distance * (point[:, 0] - 0.6) + heading * (point[:, 1] - np.pi / 2), -1.5, 1.5)
+    said = STEERING["signs"](run(seen[0], rates), *seen)
+    assert words in said if words else said == ""
+
+
 def test_commands_by_chance_follow_nothing(seen):
     rates = np.random.default_rng(1).normal(0, 1, SCANS)
     assert STEERING["measures"](run(seen[0], rates), *seen) == ""

@@ -60,6 +60,12 @@ def test_a_right_file_has_none():
         ("return GoalResponse.ACCEPT if goal.speed > 0 else GoalResponse.REJECT", "return goal.speed > 0", "no answer"),
         ("        return Patrol.Result()\n", "", "execute returns nothing"),
         (", MultiThreadedExecutor(4)", "", "keeps the only thread"),
+        (
+            "self.execute, goal",
+            "self.execute, handle_accepted_callback=lambda handle: print(handle), goal",
+            "never calls",
+        ),
+        ("        while self.left", "        handle.succeed()\n        while self.left", "above the loop"),
         ("return SetParametersResult(successful=True)", "self.changed = parameters", "must return SetParametersResult"),
         ("return SetParametersResult(successful=True)", "return True", "must return SetParametersResult"),
     ],

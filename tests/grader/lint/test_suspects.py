@@ -5,7 +5,7 @@ import pytest
 from gz_course.grader.lint.suspects import suspects
 
 RIGHT = """\
-from math import atan2, cos, pi, radians, sin
+from math import atan2, cos, pi, radians, remainder, sin
 
 PERIOD = 0.04
 
@@ -26,7 +26,7 @@ class Robot:
 
     def on_scan(self, scan):
         side = [r for i, r in enumerate(scan.ranges) if abs(scan.angle_min + i * scan.angle_increment - pi / 2) < 0.5]
-        turn = atan2(self.goal.y - self.y, self.goal.x - self.x) - self.heading
+        turn = remainder(atan2(self.goal.y - self.y, self.goal.x - self.x) - self.heading, 2 * pi)
         command.angular.z = 2 * turn
         self.place = cos(radians(90)) * min(side), sin(turn)
 """
@@ -50,7 +50,8 @@ def test_a_right_file_has_none():
             "atan2 takes y first",
         ),
         ("sin(turn)", "sin(degrees(turn))", "angle", "an angle in degrees"),
-        ("turn = atan2", "turn = 180 / pi * degrees(1) + atan2", "angle", "angular.z gets degrees per second"),
+        ("remainder(atan2", "(lambda a, b: a)(atan2", "wrap", "not brought between -pi and pi"),
+        ("turn = remainder", "turn = degrees(1) + remainder", "angle", "angular.z gets degrees per second"),
         ("radians(90)", "radians(scan.angle_min)", "angle", "in radians already"),
         ("* dt", "* 0.01", "gyroscope", "the same time"),
         ("* dt", "* PERIOD", "gyroscope", "the same time"),
@@ -75,6 +76,11 @@ def test_each_is_found(old, new, about, words):
     assert old in RIGHT
     found = suspects(RIGHT.replace(old, new, 1).encode())
     assert any(each["about"] == about and words in each["said"] for each in found), found
+
+
+def test_an_angle_that_is_brought_into_one_turn_by_hand():
+    by_hand = RIGHT.replace("remainder(atan2", "self.wrapped(atan2") + "\nwhile turn > pi:\n    turn -= 2 * pi\n"
+    assert suspects(by_hand.encode()) == []
 
 
 def test_what_is_no_python_has_none():

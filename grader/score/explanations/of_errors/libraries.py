@@ -149,6 +149,15 @@ MEANINGS = (
         "{0} has no {1}: an action has the parts {0}.Goal, {0}.Result and {0}.Feedback",
     ),
     (
+        re.compile(r"invalid transition from state (?:SUCCEEDED|CANCELED|ABORTED) with event (\w+)"),
+        "the goal had ended already: after succeed(), canceled() or abort() execute must return, and none of them is "
+        "called a second time",
+    ),
+    (
+        re.compile(r"invalid transition from state EXECUTING with event CANCELED"),
+        "canceled() is for a goal that the client wants to cancel, where goal_handle.is_cancel_requested is true",
+    ),
+    (
         re.compile(r"TypeError: 'bool' object is not callable"),
         "what is called is a truth value: is_cancel_requested and is_active are written without brackets",
     ),
