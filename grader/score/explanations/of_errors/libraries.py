@@ -39,18 +39,6 @@ MEANINGS = (
         "np.isfinite) take arrays",
     ),
     (
-        re.compile(r"IndexError: only integers, slices"),
-        "an index is a whole number: int(...)",
-    ),
-    (
-        re.compile(r"TypeError: (?:list|tuple|array) indices must be integers(?: or slices)?, not (?:numpy\.)?float"),
-        "an index is a whole number: int(...)",
-    ),
-    (
-        re.compile(r"TypeError: (?:list|tuple) indices must be integers or slices, not tuple"),
-        "a list of lists is indexed grid[row][column]; grid[row, column] needs an array of NumPy",
-    ),
-    (
         re.compile(r"(?:ValueError: cannot convert float NaN|OverflowError: cannot convert float infinity) to integer"),
         "a range of a ray that hit nothing is inf, or NaN, and is no place: leave out what is not isfinite() before "
         "int(...)",

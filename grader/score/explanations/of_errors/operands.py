@@ -129,6 +129,8 @@ def lists(error: str, code: str) -> str:
         if kind == "Parameter":
             return INSTEAD[kind]
         return ""
+    if re.search(r"(?:list|tuple) indices must be integers or slices, not tuple", error):
+        return "a list of lists is indexed grid[row][column]; grid[row, column] needs an array of NumPy"
     if re.search(r"(?:array|list|tuple|string) ind(?:ices|exes) must be integers|only integers, slices", error):
         return (
             "an index is a whole number, and / always gives a float: // divides without a remainder, int() rounds off"
