@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import callbacks, searches, sequences, transforms, unreached
+from gz_course.grader.lint import scan_callbacks, searches, sequences, transforms, unreached
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
@@ -30,7 +30,14 @@ def slips(content: bytes) -> Places:
 def _places(tree: ast.Module) -> Places:
     found = [
         place
-        for look in (*LOOKS, *unreached.LOOKS, *sequences.LOOKS, *searches.LOOKS, *transforms.LOOKS, *callbacks.LOOKS)
+        for look in (
+            *LOOKS,
+            *unreached.LOOKS,
+            *sequences.LOOKS,
+            *searches.LOOKS,
+            *transforms.LOOKS,
+            *scan_callbacks.LOOKS,
+        )
         for place in look(tree)
     ]
     return [{"line": line, "said": said} for line, said in found[:MOST]]

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.grader.lint.callbacks import callbacks
+from gz_course.grader.lint.scan_callbacks import callbacks
 from gz_course.grader.lint.sequences import functions
 from gz_course.grader.lint.syntax import Places, places_in
 
