@@ -16,6 +16,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.launched import launch_fault
 from gz_course.grader.score.python_errors import meaning
+from gz_course.grader.score.source_places import stands_before
 from gz_course.sim.did_you_mean import nearest_name
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
@@ -271,7 +272,8 @@ def silent(recording: Recording, facts: dict[str, Any]) -> str:
                     f"had published anything on {topic}. rclpy.spin(node) keeps a node alive; rclpy.spin_once(node) "
                     "waits for one event only."
                 )
-            return f"Your node has a publisher on {topic} but never published a message{_unheard(facts)}."
+            said = f"Your node has a publisher on {topic} but never published a message{_unheard(facts)}."
+            return f"{said} {stands_before(facts, topic)}".strip()
     return ""
 
 

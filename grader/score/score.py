@@ -13,6 +13,7 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
 from gz_course.grader.score.diagnosis import diagnose, silent
 from gz_course.grader.score.explanations.answers import agreed
+from gz_course.grader.score.source_places import made_in
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT = Finding(False, "a run that nobody tampers with", "not counted: the run was tampered with")
@@ -70,8 +71,9 @@ def score(recording: Recording, exercise: Exercise) -> Score:
         other = next((check for check in failed if check.finding.explanation and not check.finding.gated), None)
         if other is not None and not why:
             remarks.append(f"{other.spec.title}: {other.finding.explanation}.")
-        said = f"{worst.spec.title}: {f'{why} ({seen})' if why else seen}. {worst.spec.hint}"
-        diagnosis = " ".join(filter(None, (*remarks, said)))
+        said = f"{worst.spec.title}: {f'{why} ({seen})' if why else seen}."
+        where = "" if why or any(remarks) else made_in(recording.facts())
+        diagnosis = " ".join(filter(None, (*remarks, said, where, worst.spec.hint)))
     return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.sequences import silent_log
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.time_reckoning import time_reckoning
@@ -72,6 +73,8 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     places = {
         "lookups": lookups(content),
         "silent_log": silent_log(content),
+        "conditions": conditions(content),
+        "origins": origins(content),
         "slips": slips(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),

@@ -273,3 +273,11 @@ def test_a_recording_without_facts_is_no_error(record):
     recording = record()
     assert outcome_of(recording) == "graded"
     assert diagnose(recording, LOOKS) == ""
+
+
+def test_what_stands_before_a_publish_that_never_ran(told):
+    here = {"file": "node.py", "line": 18, "code": "if self.n == 100:", "sends": 19}
+    conditions = [here | {"topic": "/cmd_vel"}, here | {"line": 30, "code": "if x:", "topic": "/other"}]
+    _, sentence = told(signals={}, conditions=conditions)
+    assert sentence.endswith("What decides whether publish() on /cmd_vel is reached: line 18, `if self.n == 100:`.")
+    assert told(conditions=conditions) == ("graded", "")

@@ -108,3 +108,11 @@ def test_a_check_that_names_the_misconception_says_more_than_that_nothing_was_pu
     spec = dataclasses.replace(spec, parameters=spec.parameters | {"why": "it jumps at pi"})
     named = dataclasses.replace(unnamed, checks=(spec,))
     assert score(silent, named).diagnosis == "Turns once: it jumps at pi (it turned twice). Hint."
+
+
+def test_where_a_wrong_value_is_made_is_said_if_nothing_else_is_known(record, exercise):
+    origins = [{"file": "node.py", "line": 7, "code": "command.linear.x = 0.7"}]
+    said = score(record(truth(), facts={"origins": origins}), exercise).diagnosis
+    assert "What your node sends is made in line 7, `command.linear.x = 0.7`." in said
+    slip = {"file": "node.py", "line": 3, "said": "that is a slip"}
+    assert "line 7" not in score(record(truth(), facts={"origins": origins, "slips": [slip]}), exercise).diagnosis
