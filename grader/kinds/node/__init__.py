@@ -15,7 +15,7 @@ from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.sequences import silent_log
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.time_reckoning import time_reckoning
-from gz_course.grader.lint.transforms import lookups
+from gz_course.grader.lint.transforms import lookups, shared_headers
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
@@ -72,6 +72,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
         "lookups": lookups(content),
+        "shared_headers": shared_headers(content),
         "silent_log": silent_log(content),
         "conditions": conditions(content),
         "origins": origins(content),
