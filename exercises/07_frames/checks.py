@@ -194,6 +194,8 @@ def places(recording, parameters):
         or UNANSWERED["reason"](recording, infinite, int((~missing).sum()), len(which))
         or silence(found, truth)
     )
+    if "nothing was transformed" in why:
+        why += UNANSWERED["shared_header"](recording)
     return Finding(False, expected, measured, round(float(found.arrived[first]), 3), explanation=why)
 
 

@@ -4,6 +4,16 @@ FRAMES = ("odom", "robot", "robot/scanner", "robot/base_link", "robot/lidar_link
 FEW = 0.5  # of the scans
 
 
+def shared_header(recording):
+    """Return the end of a sentence on a frame_id that was changed for two messages; empty if none was."""
+    for place in recording.facts().get("shared_headers", []):
+        return (
+            f"; line {place['line']} changes the frame_id of the other message, too: a = b copies no header, so both "
+            "have the same one"
+        )
+    return ""
+
+
 def reason(recording, infinite, given, scans):
     """Return the beginning of a sentence on why `given` of so many scans got a point; empty if it is not known.
 

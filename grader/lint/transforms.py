@@ -184,4 +184,25 @@ def _keeps_messages(tree: ast.AST) -> bool:
     return False
 
 
+def shared_headers(content: bytes) -> Places:
+    """Return the `line` of each change of a frame_id in a header that is that of another message, too."""
+    return places_in(content, lambda tree: [{"line": line} for line in _shared(tree)][:MOST])
+
+
+def _shared(tree: ast.Module) -> Iterator[int]:
+    for function in functions(tree):
+        assigned = [node for node in ast.walk(function) if isinstance(node, ast.Assign)]
+        same = {
+            ast.unparse(node.targets[0])
+            for node in assigned
+            if ast.unparse(node.targets[0]).endswith(".header") and ast.unparse(node.value).endswith(".header")
+        }
+        yield from (
+            node.lineno
+            for node in assigned
+            if ast.unparse(node.targets[0]).removesuffix(".frame_id") in same
+            and ast.unparse(node.targets[0]).endswith(".frame_id")
+        )
+
+
 LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment)

@@ -17,7 +17,7 @@ from gz_course.grader.lint.sequences import silent_log
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
-from gz_course.grader.lint.transforms import lookups
+from gz_course.grader.lint.transforms import lookups, shared_headers
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
@@ -76,6 +76,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "conditions": conditions(content),
         "origins": origins(content),
         "lookups": lookups(content),
+        "shared_headers": shared_headers(content),
         "silent_log": silent_log(content),
         "slips": slips(content, exercise.duration, message_fields(heard)),
         "suspects": suspects(content),

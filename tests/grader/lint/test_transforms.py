@@ -3,7 +3,7 @@
 import pytest
 
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.transforms import lookups
+from gz_course.grader.lint.transforms import lookups, shared_headers
 
 NODE = """\
 class Hit(Node):
@@ -67,3 +67,9 @@ def test_frames_that_are_written_down_and_scans_that_are_given_up():
     text = node("frame = 'map'", "p = self.buffer.transform(point, frame)")
     assert lookups(text.encode()) == [{"line": 11, "frames": ["map"], "gives_up": True}]
     assert lookups(b"x = (") == []
+
+
+def test_a_header_of_two_messages_is_found():
+    lines = ["hit.header = scan.header", "hit.header.frame_id = 'odom'"]
+    assert shared_headers(node(*lines).encode()) == [{"line": 11}]
+    assert shared_headers(node(lines[1]).encode()) == shared_headers(node(lines[0]).encode()) == []
