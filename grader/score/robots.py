@@ -210,6 +210,6 @@ def _link(raw: dict[str, Any]) -> Link:
 
 def _joint(raw: dict[str, Any]) -> Joint:
     axis, stated = (_array(raw[key]) if key in raw else None for key in ("axis", "stated_axis"))
-    limits = [raw.get(key) for key in ("lower", "upper", "effort", "velocity")]
-    place = _array(raw["position"])
-    return Joint(raw["name"], raw["kind"], raw["child"], place, axis, stated, *limits, raw.get("damping") or 0.0)
+    limits = {key: raw.get(key) for key in ("lower", "upper", "effort", "velocity")}
+    place, damping = _array(raw["position"]), raw.get("damping") or 0.0
+    return Joint(raw["name"], raw["kind"], raw["child"], place, axis, stated, **limits, damping=damping)

@@ -50,6 +50,8 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
 def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
     """Find `name:=value` without the words that make it a parameter."""
     for call, words in _of_processes(file):
+        if any(isinstance(word, ast.Starred) for word in words):
+            continue  # the words of another list come in between
         said = [text(word) for word in words]
         for before, word in zip(["", *said], words, strict=False):
             value = text(word)

@@ -78,7 +78,7 @@ def scans(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, measured, explanation=why)
     if hits < sees:
         why = "the rays pass over what stands around, or miss it: look at the height and tilt of the lidar"
-        height = recording.signal(f"truth/{name}/z").values if name else ()
+        height = recording.signal(f"truth/{name}/z").values
         if body and len(height) and (place := scanning.height_and_tilt(body, float(height[-1]))):
             why = f"the rays pass over what stands around, or miss it: {place}"
         return Finding(False, expected, f"only {_percent(hits)} of the rays hit anything", explanation=why)

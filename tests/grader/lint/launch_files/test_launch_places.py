@@ -107,6 +107,7 @@ def test_a_right_file_has_none():
         ('"-s", "-r"', '"-s -r"', "'-s', '-r'"),
         ('str(HERE / "watch.py"), "--ros-args", ', 'f"{HERE}/watch.py --ros-args", ', "file name and --ros-args"),
         ('"--ros-args", "-p", ', '"-p", ', "--ros-args is missing before"),
+        ('"--ros-args", "-p", ', '*command, "-p", ', ""),
         ('"--ros-args", "-p", ', '"--ros-args", ', "-p is missing before"),
         ("use_sim_time:=true", "use_sim_time=true", "written NAME:=VALUE"),
         ('"--ros-args", "-p", "use_sim', '"_use_sim', "sets no parameter in ROS 2"),
