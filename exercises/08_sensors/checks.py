@@ -163,6 +163,7 @@ def why_misplaced(recording, points, stamps, right):
     candidates = (
         ((x, -y, at), "left and right are swapped: columns grow to the right, y grows to the left"),
         ((z, -x, at), "the points are those of an optical frame (x right, y down, z ahead)"),
+        ((y, x, at), "x and y are exchanged: x is ahead, y is to the left"),
         ((-y, x, at), "x and y are swapped: x is ahead, y is to the left"),
         ((x, y * math.pi / 180, at), "y comes from an angle in degrees, where radians are needed"),
         ((x - CAMERA_AHEAD, y, start), "the points are places in the hall, seen from the start, not from the camera"),

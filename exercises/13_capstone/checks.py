@@ -1,8 +1,7 @@
 """Is the last map on /map a map of the rooms, and has the robot seen them without touching anything?
 
 The truth is computed from the shapes of the world in the recording, from the simulator's poses of the robot, and from
-the scans as they were sent. Wrong maps are compared with those of common misconceptions; `driving.py` says what is
-wrong with the way of a robot.
+the scans as they were sent. Wrong maps are compared with those of common misconceptions; `driving.py` knows more.
 """
 
 import runpy
@@ -244,19 +243,16 @@ def explored(recording, parameters):
         return Finding(True, expected, measured)
     driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
     turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
-    words = why(recording, said, every) if not walls_are_right(recording, said) else ""
-    if words:  # who has a wrong map drives by it
-        pass
-    elif driven < MOVED:
+    words = why(recording, said, every) if not walls_are_right(recording, said) else ""  # it drives by its map
+    if not words and not (said < 0).any():
+        words = "no cell of the map is unknown, so nothing is left to explore: what no ray has passed yet is -1, not 0"
+    if not words and driven < MOVED:
         words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
         more = DRIVING.stands(recording)
         words += f" ({more})" if more else ": it saw what can be seen from its start"
-    elif there < wanted and (lost := DRIVING.slow_or_lost(recording)):
-        words = lost
-    elif there < wanted and (stood := standing(recording)):
-        words = stood
-    elif there < wanted:
-        words = "the robot did not come to every corner in time"
+    elif not words and there < wanted:
+        words = DRIVING.slow_or_lost(recording) or standing(recording)
+        words = words or "the robot did not come to every corner in time"
     return Finding(False, expected, measured, explanation=words)
 
 
@@ -320,7 +316,8 @@ def why(recording, said, scan):
     for words, changed in rearranged(marked):
         if fits(changed):
             return words
-    for words, changed in shifted(marked):
+    off_x, off_y = info(recording, "origin/position/x") - LEFT, info(recording, "origin/position/y") - BOTTOM
+    for words, changed in (*shifted(marked), *DRIVING.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION)):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
     if words := drawn_elsewhere(recording):

@@ -29,7 +29,9 @@ def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
     for node in ast.walk(tree):
         if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
             yield node.target, node.value
-        for target in node.targets if isinstance(node, ast.Assign) else ():
+        if not isinstance(node, ast.Assign):
+            continue
+        for target in node.targets:
             if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
                 yield from zip(target.elts, node.value.elts, strict=False)
             else:
@@ -134,8 +136,9 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
     ):
         return
     for node in ast.walk(tree):
-        difference = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
-        if difference and HEADING.search(ast.unparse(node.right)) and calls(node.left) & {"atan2", "arctan2"}:
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
+            continue
+        if HEADING.search(ast.unparse(node.right)) and calls(node.left) & {"atan2", "arctan2"}:
             yield (
                 node.lineno,
                 "wrap",
