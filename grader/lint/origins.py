@@ -15,6 +15,7 @@ from gz_course.grader.lint.syntax import Places, places_in
 SENDS = frozenset({"publish", "publish_feedback", "sendTransform"})
 LOGS = frozenset({"debug", "info", "warn", "warning", "error"})
 MOST = 4  # lines that are named; more do not show where to look
+MOST_SENDS = 20  # calls of publish(), and conditions before each, that are looked at
 LONGEST = 70  # characters of a line that are quoted
 PLAIN = frozenset({"append", "get_logger", "now", "get_clock", "to_msg", "list", "tuple", "enumerate", "len", "range"})
 
@@ -207,29 +208,35 @@ def _tests(program: _Program, node: ast.AST) -> Iterator[tuple[ast.expr, str]]:
 
 def _conditions(program: _Program) -> Places:
     places: dict[tuple[int, int], dict[str, object]] = {}
-    for call in _sinks(program):
-        for test, form in [pair for place in (call, *_callers(program, call)) for pair in _tests(program, place)]:
+    topics, callers = _topics(program), _callers(program)
+    for call in _sinks(program)[:MOST_SENDS]:
+        function = program.owner.get(call)
+        before = [call, *(callers.get(function.name, []) if function is not None else [])]
+        publisher = ast.unparse(call.func.value) if isinstance(call.func, ast.Attribute) else ""
+        for test, form in [pair for place in before for pair in _tests(program, place)][:MOST_SENDS]:
             code = ast.unparse(test)
             if "__name__" not in code and "rclpy.ok" not in code:
                 said = {"line": test.lineno, "code": _short(form.format(code))}
-                places[call.lineno, test.lineno] = said | {"sends": call.lineno, "topic": _topic(program, call)}
+                places[call.lineno, test.lineno] = said | {"sends": call.lineno, "topic": topics.get(publisher, "")}
     return [places[key] for key in sorted(places)][: 2 * MOST]
 
 
-def _callers(program: _Program, node: ast.AST) -> list[ast.Call]:
-    """Return the calls of the function in which something stands; none if it is a callback."""
-    function = program.owner.get(node)
-    calls = [each for each in ast.walk(program.tree) if isinstance(each, ast.Call)]
-    return [each for each in calls if function and ast.unparse(each.func) in (function.name, f"self.{function.name}")]
+def _callers(program: _Program) -> dict[str, list[ast.Call]]:
+    """Return the calls of each function of the file, by its name; callbacks have none."""
+    found: dict[str, list[ast.Call]] = {}
+    for call in (each for each in ast.walk(program.tree) if isinstance(each, ast.Call)):
+        name = ast.unparse(call.func).removeprefix("self.")
+        if name in program.functions and len(found.setdefault(name, [])) < MOST:
+            found[name].append(call)
+    return found
 
 
-def _topic(program: _Program, call: ast.Call) -> str:
-    """Return on which topic a publish() publishes; empty if it is not told where the publisher is made."""
-    publisher = ast.unparse(call.func.value) if isinstance(call.func, ast.Attribute) else ""
+def _topics(program: _Program) -> dict[str, str]:
+    """Return the topic of each publisher that is made with a constant name."""
+    found = {}
     for node in ast.walk(program.tree):
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and len(node.value.args) >= 2:
-            made = ast.unparse(node.value.func).endswith("create_publisher")
             topic = node.value.args[1]
-            if made and publisher in map(ast.unparse, node.targets) and isinstance(topic, ast.Constant):
-                return f"/{str(topic.value).lstrip('/')}"
-    return ""
+            if ast.unparse(node.value.func).endswith("create_publisher") and isinstance(topic, ast.Constant):
+                found |= {ast.unparse(target): f"/{str(topic.value).lstrip('/')}" for target in node.targets}
+    return found

@@ -7,6 +7,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 Places = list[dict[str, Any]]
+# Nodes of a syntax tree, each counted once for every node above it: what it costs to look into each statement from
+# each of those around it. The longest solution has a third of that.
+MOST_WORK = 30_000
 
 
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
@@ -17,8 +20,21 @@ def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
 
 
 def places_in(content: bytes, look: Callable[[ast.Module], Places]) -> Places:
-    """Return what `look` finds in the syntax tree of a file; nothing if Python gives up parsing or looking."""
+    """Return what `look` finds in the syntax tree of a file; nothing if Python gives up parsing or looking.
+
+    A file that is far longer than any solution has none: looks compare its statements with each other.
+    """
     try:
-        return look(ast.parse(content))
+        tree = ast.parse(content)
+        return look(tree) if _work(tree) <= MOST_WORK else []
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
+
+
+def _work(tree: ast.AST) -> int:
+    work, level, depth = 0, [tree], 0
+    while level and work <= MOST_WORK:
+        work += len(level) * depth
+        level = [child for node in level for child in ast.iter_child_nodes(node)]
+        depth += 1
+    return work

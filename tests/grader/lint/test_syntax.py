@@ -24,3 +24,11 @@ CHAIN = b"x" + b".a" * 2000
 @pytest.mark.parametrize("look", LOOKS)
 def test_what_python_gives_up_has_no_places(look, content):
     assert look(content) == []
+
+
+def test_a_file_that_is_far_longer_than_any_solution_has_no_places():
+    slip = b"import rclpy\nrclpy.spin\n"
+    assert slips(slip)
+    assert slips(slip + b"x = 1\n" * 20_000) == []
+    nested = b"\n".join(b" " * depth + b"def f(self):" for depth in range(90)) + b"\n"
+    assert slips(slip + nested + (b" " * 90 + b"self.f(1)\n") * 200) == []
