@@ -1,6 +1,7 @@
 """What a run looks like if its node has a common misconception; `checks.py` asks for the one that fits."""
 
 import math
+import re
 import runpy
 from collections import Counter
 from pathlib import Path
@@ -173,9 +174,45 @@ def never_turned(recording):
 def on_and_on(recording):
     """Return why the robot never stopped turning, as far as the file tells."""
     return suspect(recording, "gyroscope", "angle") or (
-        "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or is "
-        "compared with 360 although it is in radians, or each message counts for less time than has passed, or it is "
-        "one number of a quaternion"
+        "your heading never reached a full turn, 2 pi, so the robot turned on and on: log it in on_imu, and see at "
+        "which message it does not grow as the robot turns"
+    )
+
+
+def other_bias(times, rates, turning, bias):
+    """Return what was subtracted as the bias [rad/s] if the sum of `rates` was then a full turn; empty if unknown.
+
+    `turning` says at which of the `times` [s] the robot truly turned.
+    """
+    first = times <= times[0] + STAND
+    if first.sum() < 5 or not turning.any():
+        return ""
+    spans = np.diff(times, prepend=times[:1])
+    after = ~first
+    seconds = float(spans[after].sum())
+    subtracted = (float((rates * spans)[after].sum()) - CHECKS.FULL_TURN) / seconds
+    standing = rates[first]
+    near = 0.03 / seconds + 0.1 * float(np.abs(rates).max()) / seconds  # what a late number, and the last 0.1 s, change
+    mean = float(standing.mean())
+    if abs(subtracted - mean) <= near:
+        return ""
+    fitting = [
+        words
+        for words, value in (
+            ("the standard deviation of the rates, their noise", float(standing.std())),
+            ("the largest of the rates", float(standing.max())),
+            ("the smallest of the rates", float(standing.min())),
+            ("half of the mean", mean / 2),
+            ("twice the mean", 2 * mean),
+        )
+        if abs(subtracted - value) <= near
+    ]
+    is_it = f", which is {fitting[0]} while the robot stands" if len(fitting) == 1 else ""
+    if abs(subtracted) > 3 * abs(bias) + 0.05:
+        return ""
+    return (
+        f"the bias that you subtract is wrong: by your heading it is about {subtracted:.3f} rad/s{is_it}; the mean of "
+        f"the rates while the robot stands is {mean:.3f} rad/s"
     )
 
 
@@ -224,14 +261,30 @@ def other_count(recording, number, when):
         return "that is how many were in one picture: they must be remembered over the whole turn"
     x, y, yaw = (each[before] for each in CHECKS.pose(recording, stamps))
     here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
-    for words, found in ways_to_count(here, points[before], yaw):
-        if number == found != red:
-            return words
+    if said := suspect(recording, "same", "unturned"):
+        return said
+    if said := the_only_one(number, [*turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]):
+        return said
     if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
         return (
             "posts were counted again: the places of the same post differ by more than your rule for 'the same' allows"
         )
     return ""
+
+
+def turned_otherwise(recording, when):
+    """Yield wrong ways to turn the points until a time [ns], and how many places they give."""
+    words = "that is the number of places if the points are "
+    yield words + "not turned by the heading at which they were seen", CHECKS.found_if(recording, when, 0.0)
+    back = CHECKS.found_if(recording, when, -1.0)
+    yield words + "turned the wrong way: check the signs of sin(heading)", back
+
+
+def the_only_one(number, ways):
+    """Return the words of the wrong rule that gives this number; empty if none does, or rules of different kinds."""
+    fitting = [words for words, found in ways if found == number]
+    kinds = {re.sub(r"[\d.]+", "", words).partition(":")[0] for words in fitting}
+    return fitting[0] if len(kinds) == 1 else ""
 
 
 def _there(recording, kind):
