@@ -214,7 +214,7 @@ def free(recording, parameters):
         if behind[marked & ~seen].mean() >= FITS:
             words = "cells behind the hits are free: a ray says nothing about what is behind its hit"
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
-        words = f"cells that rays passed have values above {FREE}"
+        words = DRIVING.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
         words = DRIVING.not_free(said, *(way & ~hit for way in ways))
@@ -323,7 +323,7 @@ def why(recording, said, scan):
     for words, changed in shifted(marked):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
-    if words := drawn_elsewhere(recording):
+    if words := DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording):
         return words
     wrong = marked & ~solid
     if wrong.sum() < FEWEST:

@@ -270,7 +270,7 @@ def biases(tree: ast.AST) -> Iterator[Suspect]:
             made = _made_of(tree, value, lists)
             for part in (each for given in (*made, value) for each in ast.walk(given)):
                 words = _no_mean(part, lists)
-                if words:
+                if words and (isinstance(part, ast.Call) or _subtracted(tree, part)):
                     yield (
                         getattr(part, "lineno", function.lineno),
                         "gyroscope",
@@ -293,6 +293,13 @@ def _made_of(tree: ast.AST, value: ast.expr, lists: set[str]) -> list[ast.expr]:
 
 def _names(value: ast.expr) -> set[str]:
     return {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
+
+
+def _subtracted(tree: ast.AST, part: ast.AST) -> bool:
+    """Say whether an expression is subtracted from something, or is called a bias."""
+    return any(
+        (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and node.right is part) for node in ast.walk(tree)
+    ) or any(value is part and re.search("bias|offset|drift|zero", ast.unparse(name)) for name, value in assigned(tree))
 
 
 def _no_mean(part: ast.AST, lists: set[str]) -> str:

@@ -103,6 +103,17 @@ def test_parts_of_a_time_in_a_step_and_in_a_function():
     assert suspects(function.replace("return stamp", "return stamp.sec + stamp").encode()) == []
 
 
+def test_a_second_name_is_no_copy():
+    way = "def way(self):\n    grid = self.map{}\n    grid[wide(grid == 100)] = 100\n"
+    assert ["makes no copy" in each["said"] for each in suspects(way.format("").encode())] == [True]
+    assert suspects(way.format(".copy()").encode()) == []
+
+
+def test_the_rate_before_is_no_bias():
+    text = RIGHT.replace("(rate - bias) * dt", "((rate + self.rates[-1]) / 2 - bias) * dt")
+    assert suspects(text.encode()) == []
+
+
 def test_a_sign_that_is_asked_for_tells_left_from_right():
     text = RIGHT.replace("2 * atan2(q.z, q.w)", "2 * acos(q.w)\n        if q.z < 0:\n            self.heading *= -1")
     assert suspects(text.encode()) == []
