@@ -348,7 +348,7 @@ def drawn_elsewhere(recording):
             share = grown(cells(points) > 0)[marked].mean()
             if share >= FITS and share > best:
                 best, words = share, each
-        return words
+        return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
     return ""
 
 

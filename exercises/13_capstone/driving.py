@@ -147,9 +147,10 @@ def thick(recording, said, hit):
         inside, outside = widened(hit, cells), widened(hit, cells + 1.6)
         if marked[inside].mean() > 0.9 and outside[marked].mean() > 0.9:
             where = suspect(recording, "alias")
+            where = f" ({where})" if where else ""
             return (
-                f"the walls of your map are about {cells} cells thicker on every side than what was hit, as they are for "
-                "planning a way: widen a copy, and publish the map as it was seen" + (f" ({where})" if where else "")
+                f"the walls of your map are about {cells} cells thicker on every side than what was hit, as they are "
+                f"for planning a way: widen a copy, and publish the map as it was seen{where}"
             )
     return ""
 
