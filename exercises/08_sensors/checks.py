@@ -297,7 +297,7 @@ def why_turned(recording, when, turned):
         for counts in (np.ones(len(steps), dtype=bool), turning):
             if abs(float(steps[counts].sum()) - FULL_TURN) <= max(0.1, 3 * np.abs(steps).max(initial=0.0)):
                 return words.format(bias=bias)
-    return misconceptions().other_bias(times, rates, turning, bias)
+    return misconceptions().TURNING.other_bias(times, rates, turning, bias)
 
 
 def counts_the_posts(recording, parameters):

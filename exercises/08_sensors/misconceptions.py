@@ -12,9 +12,10 @@ import numpy as np
 from gz_course.grader.score.suspects import suspect
 
 CHECKS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("checks.py"))))
+TURNING = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("turning.py"))))
 HALF_VIEW = 0.5  # [rad] to either side; a post within it is surely in the picture
 SEES = 3.4  # [m] within which a post is surely large enough
-STAND = 0.9  # [s] of the first second
+FOCAL_LENGTH, MIDDLE, HALF_HEIGHT = 80 / math.tan(0.6), 80, 60  # [pixels] of the cameras of the hall
 
 
 def too_few_points(recording, points):
@@ -100,8 +101,18 @@ def middle_off(seen, ahead, left):
     side = "left" if usual > 0 else "right"
     return (
         f"every point is too far to the {side}, by {abs(usual):.2f} m for each metre ahead: the column is counted from "
-        "another place than the middle of the picture, cx = k[2]"
+        f"{counted_from(MIDDLE + usual * FOCAL_LENGTH)}, and not from the middle of the picture, cx = k[2]"
     )
+
+
+def counted_from(column):
+    """Return what a column is that was taken for the middle one."""
+    for known, words in ((0, "the left edge, column 0"), (2 * MIDDLE, f"the right edge, column {2 * MIDDLE}")):
+        if abs(column - known) <= 6:
+            return words
+    if abs(column - HALF_HEIGHT) <= 4:
+        return f"column {HALF_HEIGHT}, half of the height (a picture's shape is (height, width, channels))"
+    return f"about column {column:.0f}"
 
 
 def one_thing(seen, ahead, left, right):
@@ -176,43 +187,6 @@ def on_and_on(recording):
     return suspect(recording, "gyroscope", "angle") or (
         "your heading never reached a full turn, 2 pi, so the robot turned on and on: log it in on_imu, and see at "
         "which message it does not grow as the robot turns"
-    )
-
-
-def other_bias(times, rates, turning, bias):
-    """Return what was subtracted as the bias [rad/s] if the sum of `rates` was then a full turn; empty if unknown.
-
-    `turning` says at which of the `times` [s] the robot truly turned.
-    """
-    first = times <= times[0] + STAND
-    if first.sum() < 5 or not turning.any():
-        return ""
-    spans = np.diff(times, prepend=times[:1])
-    after = ~first
-    seconds = float(spans[after].sum())
-    subtracted = (float((rates * spans)[after].sum()) - CHECKS.FULL_TURN) / seconds
-    standing = rates[first]
-    near = 0.03 / seconds + 0.1 * float(np.abs(rates).max()) / seconds  # what a late number, and the last 0.1 s, change
-    mean = float(standing.mean())
-    if abs(subtracted - mean) <= near:
-        return ""
-    fitting = [
-        words
-        for words, value in (
-            ("the standard deviation of the rates, their noise", float(standing.std())),
-            ("the largest of the rates", float(standing.max())),
-            ("the smallest of the rates", float(standing.min())),
-            ("half of the mean", mean / 2),
-            ("twice the mean", 2 * mean),
-        )
-        if abs(subtracted - value) <= near
-    ]
-    is_it = f", which is {fitting[0]} while the robot stands" if len(fitting) == 1 else ""
-    if abs(subtracted) > 3 * abs(bias) + 0.05:
-        return ""
-    return (
-        f"the bias that you subtract is wrong: by your heading it is about {subtracted:.3f} rad/s{is_it}; the mean of "
-        f"the rates while the robot stands is {mean:.3f} rad/s"
     )
 
 

@@ -96,7 +96,8 @@ def test_a_right_run_passes():
     ("hall", "words"),
     [
         (Hall(lambda a, b: (a, b / a)), "it lacks the factor ahead"),
-        (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from another place"),
+        (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from about column 138"),
+        (Hall(lambda a, b: (a, b - 0.171 * a)), "is counted from column 60, half of the height"),
         (Hall(lambda a, b: (1.0, b / a)), "every distance is 1.00 m"),
         (Hall(lambda a, b: (1.5 * a, 1.5 * b)), "the distances are 1.50 times the right ones"),
         (Hall(lambda a, b: (a, 0.0)), "point.y is always 0"),
@@ -179,7 +180,7 @@ def test_a_wrong_bias_is_told_from_when_the_heading_was_a_full_turn(taken, words
     rates = np.where(turning, 0.8, 0.0) + 0.09 + 0.02 * np.random.default_rng(1).standard_normal(len(times))
     heading = np.cumsum(np.where(turning, (rates - taken(rates[~turning])) * 0.04, 0))
     until = heading < 2 * np.pi
-    said = WORDS["other_bias"](times[until], rates[until], turning[until], 0.09)
+    said = WORDS["TURNING"].other_bias(times[until], rates[until], turning[until], 0.09)
     assert words in said and bool(words) == bool(said), said
 
 
