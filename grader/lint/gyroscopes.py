@@ -21,7 +21,7 @@ NO_MEANS = {  # what is called instead of the mean: what it gives
 DEPTH = 4  # steps in which a name is replaced by what it was assigned
 
 
-def _functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
+def reads_rates(tree: ast.AST) -> Iterator[ast.FunctionDef]:
     """Yield the functions that read a turning rate."""
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef) and "angular_velocity" in ast.unparse(node):
@@ -39,6 +39,14 @@ def _sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr]]
         text = ast.unparse(expanded(node.value, values))
         if "angular_velocity" in text and not re.search("bias|offset|drift|mean|rates", name):
             yield node, name, node.value
+
+
+def angle_sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr, ast.expr]]:
+    """Yield the statements that add to an attribute: the statement, the attribute, what is added, and its whole."""
+    values = assigned_once(function)
+    for node, name, value in _sums(function):
+        if _adds(node, name):
+            yield node, name, value, expanded(value, values)
 
 
 def assigned_once(function: ast.FunctionDef) -> dict[str, ast.expr]:
@@ -79,7 +87,7 @@ def _constants(tree: ast.AST) -> dict[str, float]:
 def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find rates that are added up with the same time for every message, or without any."""
     constants = _constants(tree)
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         values = assigned_once(function)
         for node, name, value in _sums(function):
             whole = expanded(value, values)
@@ -113,7 +121,7 @@ def _adds(node: ast.stmt, name: str) -> bool:
 
 
 def replaced(tree: ast.AST) -> Iterator[Suspect]:
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         for node, name, value in _sums(function):
             text = ast.unparse(value)
             if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
@@ -126,7 +134,7 @@ def replaced(tree: ast.AST) -> Iterator[Suspect]:
 
 def jumps(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is brought back into one turn."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         names = {name for _, name, _ in _sums(function)}
         for node in ast.walk(function):
             target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
@@ -148,7 +156,7 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
 
 def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
     """Find another axis than z, the orientation of the message, and parts of stamps."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         text = ast.unparse(function)
         for node in ast.walk(function):
             if isinstance(node, ast.Attribute) and ast.unparse(node).endswith(
@@ -176,7 +184,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
 
 def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is compared with 360 where nothing makes degrees."""
-    if calls(tree) & {"degrees", "rad2deg"} or not any(_functions(tree)):
+    if calls(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
         return
     for node in ast.walk(tree):
         if not isinstance(node, ast.Compare):
@@ -200,7 +208,7 @@ def _undivided(tree: ast.AST, call: ast.Call) -> bool:
 
 def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find steps of a sum, and functions that return a time, in which a part of a stamp is taken for the whole."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         values = assigned_once(function)
         for node, _, value in _sums(function):
             yield from _part_of_time(node.lineno, ast.unparse(expanded(value, values)))
@@ -237,7 +245,7 @@ def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
 
 def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find a rate, or the sum of rates, that is converted from degrees."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         values = assigned_once(function)
         names = {name for _, name, _ in _sums(function)}
         for node in ast.walk(function):
@@ -265,7 +273,7 @@ def _is_rate(value: ast.expr, names: set[str]) -> bool:
 def biases(tree: ast.AST) -> Iterator[Suspect]:
     """Find what is subtracted from the rates if it is made of the standing rates by something else than their mean."""
     lists = set(_lists_of_rates(tree))
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         for _, _, value in _sums(function):
             made = _made_of(tree, value, lists)
             for part in (each for given in (*made, value) for each in ast.walk(given)):
@@ -318,7 +326,7 @@ def _sliced(value: ast.Subscript) -> bool:
 
 def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
     """Yield the names of the lists to which rates are appended."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         values = assigned_once(function)
         for node in ast.walk(function):
             adds = isinstance(node, ast.Call) and last_name(node) in ("append", "appendleft") and bool(node.args)
@@ -328,7 +336,7 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
 
 def signs(tree: ast.AST) -> Iterator[Suspect]:
     """Find rates, or times, that are added up with a wrong sign."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         values = assigned_once(function)
         for node, name, value in _sums(function):
             if not _adds(node, name):
