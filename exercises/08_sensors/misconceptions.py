@@ -237,6 +237,9 @@ def other_count(recording, number, when):
     here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
     if said := suspect(recording, "same", "unturned"):
         return said
+    turned = [*turned_otherwise(recording, when)] if number > red + 2 else []  # so many are hardly a coincidence
+    if said := the_only_one(number, turned):
+        return said
     if said := the_only_one(number, [*turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]):
         return said
     if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
