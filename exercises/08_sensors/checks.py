@@ -123,6 +123,7 @@ def places_the_posts(recording, parameters):
     )
     why = (
         why_misplaced(recording, points, stamps, right)
+        or misconceptions().suspect(recording, "picture")
         or misconceptions().misplaced(recording, points, stamps, right)
         or why_somewhere(recording, points, stamps, right)
     )
@@ -279,6 +280,8 @@ def why_turned(recording, when, turned):
     times, rates = gyro.times[before] / 1e9, gyro.values[before]
     turning = np.abs(truth(recording, "angular_z", gyro.times[before])) > 0.1
     bias = float((rates - truth(recording, "angular_z", gyro.times[before]))[~turning].mean()) if len(rates) else 0.0
+    if said := misconceptions().suspect(recording, "gyroscope"):
+        return said
     spans = np.diff(times, prepend=times[:1])
     z, w = (recording.signal(f"topics/odom/pose/pose/orientation/{part}") for part in "zw")
     by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
@@ -295,7 +298,7 @@ def why_turned(recording, when, turned):
         for counts in (np.ones(len(steps), dtype=bool), turning):
             if abs(float(steps[counts].sum()) - FULL_TURN) <= max(0.1, 3 * np.abs(steps).max(initial=0.0)):
                 return words.format(bias=bias)
-    return ""
+    return misconceptions().TURNING.other_bias(times, rates, turning, bias)
 
 
 def counts_the_posts(recording, parameters):
@@ -326,10 +329,6 @@ def counts_the_posts(recording, parameters):
         why = "so many are pixels, or columns, of red posts"
     elif abs(number - sightings) <= 2 and sightings > red:
         why = "that is how often a red post was in a picture"
-    elif number == found_if(recording, first[0], 0.0):
-        why = "that is the number of places if the points are not turned by the heading at which they were seen"
-    elif number == found_if(recording, first[0], -1.0):
-        why = "that is the number of places if the points are turned the wrong way: check the signs of sin(heading)"
     else:
         why = misconceptions().other_count(recording, number, first[0])
     if not why and number == red + 1:

@@ -1,6 +1,7 @@
 """What a run looks like if its node has a common misconception; `checks.py` asks for the one that fits."""
 
 import math
+import re
 import runpy
 from collections import Counter
 from pathlib import Path
@@ -11,9 +12,10 @@ import numpy as np
 from gz_course.grader.score.suspects import suspect
 
 CHECKS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("checks.py"))))
+TURNING = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("turning.py"))))
 HALF_VIEW = 0.5  # [rad] to either side; a post within it is surely in the picture
 SEES = 3.4  # [m] within which a post is surely large enough
-STAND = 0.9  # [s] of the first second
+FOCAL_LENGTH, MIDDLE, HALF_HEIGHT = 80 / math.tan(0.6), 80, 60  # [pixels] of the cameras of the hall
 
 
 def too_few_points(recording, points):
@@ -99,8 +101,18 @@ def middle_off(seen, ahead, left):
     side = "left" if usual > 0 else "right"
     return (
         f"every point is too far to the {side}, by {abs(usual):.2f} m for each metre ahead: the column is counted from "
-        "another place than the middle of the picture, cx = k[2]"
+        f"{counted_from(MIDDLE + usual * FOCAL_LENGTH)}, and not from the middle of the picture, cx = k[2]"
     )
+
+
+def counted_from(column):
+    """Return what a column is that was taken for the middle one."""
+    for known, words in ((0, "the left edge, column 0"), (2 * MIDDLE, f"the right edge, column {2 * MIDDLE}")):
+        if abs(column - known) <= 6:
+            return words
+    if abs(column - HALF_HEIGHT) <= 4:
+        return f"column {HALF_HEIGHT}, half of the height (a picture's shape is (height, width, channels))"
+    return f"about column {column:.0f}"
 
 
 def one_thing(seen, ahead, left, right):
@@ -173,9 +185,8 @@ def never_turned(recording):
 def on_and_on(recording):
     """Return why the robot never stopped turning, as far as the file tells."""
     return suspect(recording, "gyroscope", "angle") or (
-        "the robot turned on and on, because your heading never reached a full turn: it jumps back at pi, or is "
-        "compared with 360 although it is in radians, or each message counts for less time than has passed, or it is "
-        "one number of a quaternion"
+        "your heading never reached a full turn, 2 pi, so the robot turned on and on: log it in on_imu, and see at "
+        "which message it does not grow as the robot turns"
     )
 
 
@@ -224,14 +235,33 @@ def other_count(recording, number, when):
         return "that is how many were in one picture: they must be remembered over the whole turn"
     x, y, yaw = (each[before] for each in CHECKS.pose(recording, stamps))
     here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
-    for words, found in ways_to_count(here, points[before], yaw):
-        if number == found != red:
-            return words
+    if said := suspect(recording, "same", "unturned"):
+        return said
+    turned = [*turned_otherwise(recording, when)] if number > red + 2 else []  # so many are hardly a coincidence
+    if said := the_only_one(number, turned):
+        return said
+    if said := the_only_one(number, [*turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]):
+        return said
     if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
         return (
             "posts were counted again: the places of the same post differ by more than your rule for 'the same' allows"
         )
     return ""
+
+
+def turned_otherwise(recording, when):
+    """Yield wrong ways to turn the points until a time [ns], and how many places they give."""
+    words = "that is the number of places if the points are "
+    yield words + "not turned by the heading at which they were seen", CHECKS.found_if(recording, when, 0.0)
+    back = CHECKS.found_if(recording, when, -1.0)
+    yield words + "turned the wrong way: check the signs of sin(heading)", back
+
+
+def the_only_one(number, ways):
+    """Return the words of the wrong rule that gives this number; empty if none does, or rules of different kinds."""
+    fitting = [words for words, found in ways if found == number]
+    kinds = {re.sub(r"[\d.]+", "", words).partition(":")[0] for words in fitting}
+    return fitting[0] if len(kinds) == 1 else ""
 
 
 def _there(recording, kind):

@@ -213,7 +213,7 @@ def free(recording, parameters):
         if behind[marked & ~seen].mean() >= FITS:
             words = "cells behind the hits are free: a ray says nothing about what is behind its hit"
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
-        words = f"cells that rays passed have values above {FREE}"
+        words = DRIVING.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
         words = DRIVING.not_free(said, *(way & ~hit for way in ways))
@@ -320,7 +320,7 @@ def why(recording, said, scan):
     for words, changed in (*shifted(marked), *DRIVING.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION)):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
-    if words := drawn_elsewhere(recording):
+    if words := DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording):
         return words
     wrong = marked & ~solid
     if wrong.sum() < FEWEST:
@@ -345,7 +345,7 @@ def drawn_elsewhere(recording):
             share = grown(cells(points) > 0)[marked].mean()
             if share >= FITS and share > best:
                 best, words = share, each
-        return words
+        return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
     return ""
 
 

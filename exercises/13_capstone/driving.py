@@ -143,3 +143,30 @@ def not_free(said, by_hits, by_others):
             )
         return f"{share:.0%} of the cells that rays passed are still unknown: most rays, or most scans, are left out"
     return ""
+
+
+def thick(recording, said, hit):
+    """Return by how many cells the walls of a map are widened around what was hit; empty if they are not."""
+    marked = said >= 65
+    if hit.sum() < 30 or marked.sum() < 2 * hit.sum():
+        return ""
+    for cells in range(6, 1, -1):
+        inside, outside = widened(hit, cells), widened(hit, cells + 1.6)
+        if marked[inside].mean() > 0.9 and outside[marked].mean() > 0.9:
+            where = suspect(recording, "alias")
+            where = f" ({where})" if where else ""
+            return (
+                f"the walls of your map are about {cells} cells thicker on every side than what was hit, as they are "
+                f"for planning a way: widen a copy, and publish the map as it was seen{where}"
+            )
+    return ""
+
+
+def widened(cells, by):
+    """Return the cells at most `by` cells away from those that are set."""
+    out, most = cells.copy(), int(by)
+    for row in range(-most, most + 1):
+        for column in range(-most, most + 1):
+            if row * row + column * column <= by * by:
+                out |= np.roll(cells, (row, column), axis=(0, 1))
+    return out

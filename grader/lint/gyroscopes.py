@@ -6,14 +6,22 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.headings import Suspect, assigned, calls
+from gz_course.grader.lint.headings import TO_RADIANS, Suspect, assigned, calls, last_name
 
 TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
 WRAPS = frozenset({"remainder", "fmod", "atan2", "arctan2", "wrap", "normalize", "normalize_angle"})
+BY_HAND = re.compile(r"\bpi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi|/ 57\.\d+|\* 0\.01745")  # degrees to radians
+EARLIER = re.compile(r"last|before|prev|old|earlier", re.IGNORECASE)
+SPREAD = "says how much the rates scatter (their noise), not how far they are off"
+NO_MEANS = {  # what is called instead of the mean: what it gives
+    **dict.fromkeys(("std", "stdev", "pstdev", "nanstd", "var", "variance", "pvariance", "ptp"), SPREAD),
+    **dict.fromkeys(("max", "amax"), "is the largest of the rates, their mean and the most noise"),
+    **dict.fromkeys(("min", "amin"), "is the smallest of the rates, their mean and the most noise"),
+}
 DEPTH = 4  # steps in which a name is replaced by what it was assigned
 
 
-def _functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
+def reads_rates(tree: ast.AST) -> Iterator[ast.FunctionDef]:
     """Yield the functions that read a turning rate."""
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef) and "angular_velocity" in ast.unparse(node):
@@ -22,7 +30,7 @@ def _functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
 
 def _sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr]]:
     """Yield the statements that make an attribute of a rate: the statement, the attribute, and what is added."""
-    values = _values(function)
+    values = assigned_once(function)
     for node in ast.walk(function):
         target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
         if not isinstance(node, ast.Assign | ast.AugAssign) or not isinstance(target, ast.Attribute):
@@ -33,7 +41,15 @@ def _sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr]]
             yield node, name, node.value
 
 
-def _values(function: ast.FunctionDef) -> dict[str, ast.expr]:
+def angle_sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr, ast.expr]]:
+    """Yield the statements that add to an attribute: the statement, the attribute, what is added, and its whole."""
+    values = assigned_once(function)
+    for node, name, value in _sums(function):
+        if _adds(node, name):
+            yield node, name, value, expanded(value, values)
+
+
+def assigned_once(function: ast.FunctionDef) -> dict[str, ast.expr]:
     """Return what names of a function are assigned, if only once."""
     found: dict[str, list[ast.expr]] = {}
     for target, value in assigned(function):
@@ -71,8 +87,8 @@ def _constants(tree: ast.AST) -> dict[str, float]:
 def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find rates that are added up with the same time for every message, or without any."""
     constants = _constants(tree)
-    for function in _functions(tree):
-        values = _values(function)
+    for function in reads_rates(tree):
+        values = assigned_once(function)
         for node, name, value in _sums(function):
             whole = expanded(value, values)
             names = {ast.unparse(each) for each in ast.walk(whole) if isinstance(each, ast.Name | ast.Attribute)}
@@ -105,7 +121,7 @@ def _adds(node: ast.stmt, name: str) -> bool:
 
 
 def replaced(tree: ast.AST) -> Iterator[Suspect]:
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         for node, name, value in _sums(function):
             text = ast.unparse(value)
             if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
@@ -118,7 +134,7 @@ def replaced(tree: ast.AST) -> Iterator[Suspect]:
 
 def jumps(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is brought back into one turn."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         names = {name for _, name, _ in _sums(function)}
         for node in ast.walk(function):
             target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
@@ -140,7 +156,7 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
 
 def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
     """Find another axis than z, the orientation of the message, and parts of stamps."""
-    for function in _functions(tree):
+    for function in reads_rates(tree):
         text = ast.unparse(function)
         for node in ast.walk(function):
             if isinstance(node, ast.Attribute) and ast.unparse(node).endswith(
@@ -168,7 +184,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
 
 def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is compared with 360 where nothing makes degrees."""
-    if calls(tree) & {"degrees", "rad2deg"} or not any(_functions(tree)):
+    if calls(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
         return
     for node in ast.walk(tree):
         if not isinstance(node, ast.Compare):
@@ -190,4 +206,174 @@ def _undivided(tree: ast.AST, call: ast.Call) -> bool:
     return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
 
 
-LOOKS = (wrong_fields, turns_of_360, fixed_times, replaced, jumps)
+def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
+    """Find steps of a sum, and functions that return a time, in which a part of a stamp is taken for the whole."""
+    for function in reads_rates(tree):
+        values = assigned_once(function)
+        for node, _, value in _sums(function):
+            yield from _part_of_time(node.lineno, ast.unparse(expanded(value, values)))
+    whole = ast.unparse(tree)
+    for function in ast.walk(tree):
+        if not isinstance(function, ast.FunctionDef) or len(re.findall(rf"\b{function.name}\(", whole)) < 2:
+            continue
+        for node in ast.walk(function):
+            if (
+                isinstance(node, ast.Return)
+                and node.value is not None
+                and not re.search(
+                    rf"\.(?:sec|nanosec)\b.*\b{function.name}\(|\b{function.name}\(.*\.(?:sec|nanosec)\b",
+                    whole.replace(ast.unparse(function), ""),
+                )
+            ):
+                yield from _part_of_time(node.lineno, ast.unparse(expanded(node.value, assigned_once(function))))
+
+
+def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
+    seconds, rest = re.search(r"\.sec\b", text), ".nanosec" in text
+    if re.search("from_msg|nanoseconds", text) or bool(seconds) == rest:
+        return
+    if rest:
+        yield (
+            line,
+            "gyroscope",
+            "the time is made of stamp.nanosec alone, which begins again at 0 every second: the time is sec + "
+            "nanosec / 1e9",
+        )
+    else:
+        yield line, "gyroscope", "the time is made of stamp.sec alone, whole seconds: the time is sec + nanosec / 1e9"
+
+
+def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a rate, or the sum of rates, that is converted from degrees."""
+    for function in reads_rates(tree):
+        values = assigned_once(function)
+        names = {name for _, name, _ in _sums(function)}
+        for node in ast.walk(function):
+            text = ast.unparse(node) if isinstance(node, ast.Call | ast.BinOp) else ""
+            given: ast.expr | None = None
+            if isinstance(node, ast.Call) and last_name(node) in TO_RADIANS and node.args:
+                given = node.args[0]
+            elif isinstance(node, ast.BinOp) and BY_HAND.search(text) and not BY_HAND.search(ast.unparse(node.left)):
+                given = node.left
+            if given is not None and _is_rate(expanded(given, values), names):
+                yield (
+                    getattr(node, "lineno", function.lineno),
+                    "gyroscope",
+                    f"{text[:60]} converts from degrees what is in radians already: angular_velocity is in rad/s, so "
+                    "the heading grows 57 times too slowly",
+                )
+                break
+
+
+def _is_rate(value: ast.expr, names: set[str]) -> bool:
+    text = ast.unparse(value)
+    return "angular_velocity" in text or text in names
+
+
+def biases(tree: ast.AST) -> Iterator[Suspect]:
+    """Find what is subtracted from the rates if it is made of the standing rates by something else than their mean."""
+    lists = set(_lists_of_rates(tree))
+    for function in reads_rates(tree):
+        for _, _, value in _sums(function):
+            made = _made_of(tree, value, lists)
+            for part in (each for given in (*made, value) for each in ast.walk(given)):
+                words = _no_mean(part, lists)
+                if words and (isinstance(part, ast.Call) or _subtracted(tree, part)):
+                    yield (
+                        getattr(part, "lineno", function.lineno),
+                        "gyroscope",
+                        f"{ast.unparse(part)[:60]} {words}: the bias is their mean, what the gyroscope says on average "
+                        "while the robot stands",
+                    )
+
+
+def _made_of(tree: ast.AST, value: ast.expr, lists: set[str]) -> list[ast.expr]:
+    """Return what the names in an expression are assigned, and the names in that, some steps deep."""
+    made: list[ast.expr] = []
+    names, known = _names(value), set(lists)
+    for _ in range(DEPTH):
+        known |= names
+        more = [given for target, given in assigned(tree) if ast.unparse(target) in names - lists]
+        made += more
+        names = {name for given in more for name in _names(given)} - known
+    return made
+
+
+def _names(value: ast.expr) -> set[str]:
+    return {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
+
+
+def _subtracted(tree: ast.AST, part: ast.AST) -> bool:
+    """Say whether an expression is subtracted from something, or is called a bias."""
+    return any(
+        (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and node.right is part) for node in ast.walk(tree)
+    ) or any(value is part and re.search("bias|offset|drift|zero", ast.unparse(name)) for name, value in assigned(tree))
+
+
+def _no_mean(part: ast.AST, lists: set[str]) -> str:
+    """Return what a part of an expression is if it is made of a list of rates and is not their mean."""
+    if isinstance(part, ast.Call):
+        given = {ast.unparse(each) for each in (*part.args, part.func) if isinstance(each, ast.Name | ast.Attribute)}
+        return NO_MEANS.get(last_name(part), "") if given & lists else ""
+    if isinstance(part, ast.Subscript) and not _sliced(part) and ast.unparse(part.value) in lists:
+        return "is a single one of the rates, with its noise"
+    return ""
+
+
+def _sliced(value: ast.Subscript) -> bool:
+    return isinstance(value.slice, ast.Slice)
+
+
+def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
+    """Yield the names of the lists to which rates are appended."""
+    for function in reads_rates(tree):
+        values = assigned_once(function)
+        for node in ast.walk(function):
+            adds = isinstance(node, ast.Call) and last_name(node) in ("append", "appendleft") and bool(node.args)
+            if adds and "angular_velocity" in ast.unparse(expanded(node.args[0], values)):
+                yield ast.unparse(node.func).rpartition(".")[0]
+
+
+def signs(tree: ast.AST) -> Iterator[Suspect]:
+    """Find rates, or times, that are added up with a wrong sign."""
+    for function in reads_rates(tree):
+        values = assigned_once(function)
+        for node, name, value in _sums(function):
+            if not _adds(node, name):
+                continue
+            whole = expanded(value, values)
+            for each in ast.walk(whole):
+                if not isinstance(each, ast.BinOp) or not isinstance(each.op, ast.Sub):
+                    continue
+                left, right = ast.unparse(each.left), ast.unparse(each.right)
+                if EARLIER.search(left) and not EARLIER.search(right) and "stamp" in right:
+                    yield (
+                        node.lineno,
+                        "gyroscope",
+                        f"the time {ast.unparse(each)[:60]} is negative: it is the later stamp minus the one before",
+                    )
+            sign = _sign(whole) * (-1 if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) else 1)
+            if sign < 0:
+                yield (
+                    node.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(node)[:70]} takes the rate with a minus sign: a turn to the left has a positive "
+                    "rate and makes the heading larger",
+                )
+
+
+def _sign(value: ast.expr) -> int:
+    """Return the sign with which an expression holds a turning rate; 0 if it holds none."""
+    if "angular_velocity" not in ast.unparse(value):
+        return 0
+    match value:
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return -_sign(inner)
+        case ast.BinOp(left=left, op=ast.Sub(), right=right):
+            return _sign(left) - _sign(right)
+        case ast.BinOp(left=left, op=ast.Add() | ast.Mult() | ast.Div(), right=right):
+            return _sign(left) + _sign(right)
+    return 1
+
+
+LOOKS = (parts_of_times, rates_in_degrees, biases, signs, wrong_fields, turns_of_360, fixed_times, replaced, jumps)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 Suspect = tuple[int, str, str]
+LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
 SINES = frozenset({"cos", "sin", "tan"})
 TO_DEGREES = frozenset({"degrees", "rad2deg"})
 TO_RADIANS = frozenset({"radians", "deg2rad"})
@@ -63,12 +64,22 @@ def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
         if not parts or not HEADING.search(ast.unparse(target)):
             continue
         words = _wrong_heading(value, parts, names)
-        if words:
+        if words and not (words.startswith("acos") and _signed(tree, names)):
             yield value.lineno, "heading", f"{ast.unparse(value)[:60]} is taken for the heading: {words}"
 
 
+def _signed(tree: ast.AST, names: set[str]) -> bool:
+    """Say whether the sign of z is asked for, which tells left from right."""
+    asking = (
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Compare) or (isinstance(node, ast.Call) and last_name(node) in ("copysign", "sign"))
+    )
+    return any(_part(each, names) == "z" for node in asking for each in ast.walk(node))
+
+
 def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
-    used, right = calls(value), "the heading is 2 * atan2(orientation.z, orientation.w)"
+    used, right = calls(value) - LIMITS, "the heading is 2 * atan2(orientation.z, orientation.w)"
     if not used and len(parts) == 1:
         (part,) = parts
         what = {"z": "the sine of half of it", "w": "the cosine of half of it"}.get(part, "nearly 0 on flat ground")
@@ -77,9 +88,9 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
         if _part(value.args[0], names) == "w":
             return f"atan2 takes the sine first, which is z; {right}"
         return f"that is half of it; {right}"
-    if used == {"acos"} and parts == {"w"}:
-        return f"acos does not know left from right; {right}"
-    if used == {"asin"} and parts == {"z"} and isinstance(value, ast.Call):
+    if used and used <= {"acos", "arccos"} and parts == {"w"}:
+        return f"acos is never negative, so whoever has turned to the right seems to have turned to the left; {right}"
+    if used and used <= {"asin", "arcsin"} and parts == {"z"} and isinstance(value, ast.Call):
         return f"that is half of it; {right}"
     return ""
 

@@ -9,10 +9,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import gyroscopes, headings, rays
+from gz_course.grader.lint import aliases, bias_use, gyroscopes, headings, known_places, pictures, rays
 from gz_course.grader.lint.syntax import Places, places_in
 
-LOOKS = (*headings.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS)
+LOOKS = (
+    *headings.LOOKS,
+    *gyroscopes.LOOKS,
+    *bias_use.LOOKS,
+    *rays.LOOKS,
+    *known_places.LOOKS,
+    *pictures.LOOKS,
+    *aliases.LOOKS,
+)
 MOST = 12  # suspects kept
 
 

@@ -179,6 +179,7 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ("orientation.z is taken for the heading: it is the sine of half of it", np.sin(heading / 2) + angles),
         ("the heading is half of what it is: it is 2 * atan2(orientation.z, orientation.w)", heading / 2 + angles),
         ("the heading is added two times", 2 * heading + angles),
+        ("the heading has lost its sign, as by acos: a turn to the right is negative", np.abs(heading) + angles),
         ("orientation.w is taken for the heading: it is the cosine of half of it", np.cos(heading / 2) + angles),
         (
             "angle_max is taken for the angle of the first ray: it is angle_min",

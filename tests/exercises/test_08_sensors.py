@@ -96,7 +96,8 @@ def test_a_right_run_passes():
     ("hall", "words"),
     [
         (Hall(lambda a, b: (a, b / a)), "it lacks the factor ahead"),
-        (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from another place"),
+        (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from about column 138"),
+        (Hall(lambda a, b: (a, b - 0.171 * a)), "is counted from column 60, half of the height"),
         (Hall(lambda a, b: (1.0, b / a)), "every distance is 1.00 m"),
         (Hall(lambda a, b: (1.5 * a, 1.5 * b)), "the distances are 1.50 times the right ones"),
         (Hall(lambda a, b: (a, 0.0)), "point.y is always 0"),
@@ -155,3 +156,42 @@ def test_rules_for_the_same_post():
         told["that is the number if each point is compared with the last one only, and not with all known posts"] == 4
     )
     assert told["that is the number if posts at the same distance are one"] == 1
+
+
+def test_rules_of_different_kinds_that_give_the_same_number_are_not_said():
+    one = ("that is the number if points up to 1 m apart are one post: x", 4)
+    other = ("that is the number if points up to 2 m apart are one post: x", 4)
+    third = ("that is the number of places if the points are not turned by the heading", 4)
+    assert WORDS["the_only_one"](4, [one, other]) == one[0]
+    assert WORDS["the_only_one"](4, [one, third]) == WORDS["the_only_one"](5, [one]) == ""
+
+
+@pytest.mark.parametrize(
+    ("taken", "words"),
+    [
+        (lambda standing: standing.std(), "the standard deviation of the rates"),
+        (lambda standing: standing.max(), "the largest of the rates"),
+        (lambda standing: 0.5 * standing.mean(), "half of the mean"),
+        (lambda standing: standing.mean(), ""),
+    ],
+)
+def test_a_wrong_bias_is_told_from_when_the_heading_was_a_full_turn(taken, words):
+    times = np.arange(0.0, 12.0, 0.04)
+    turning = times > 1.0
+    rates = np.where(turning, 0.8, 0.0) + 0.09 + 0.02 * np.random.default_rng(1).standard_normal(len(times))
+    heading = np.cumsum(np.where(turning, (rates - taken(rates[~turning])) * 0.04, 0))
+    until = heading < 2 * np.pi
+    said = WORDS["TURNING"].other_bias(times[until], rates[until], turning[until], 0.09)
+    assert words in said and bool(words) == bool(said), said
+
+
+def test_a_count_is_explained_by_the_line_that_keeps_the_posts():
+    hall = Hall(count=4)
+    hall.suspects = [{"line": 9, "about": "same", "said": "only the last one"}]
+    assert hall.found("counts_the_posts").explanation == "line 9: only the last one"
+
+
+def test_points_beside_the_posts_are_explained_by_the_line_that_takes_the_height_for_the_width():
+    hall = Hall(lambda ahead, left: (ahead, left - 0.17 * ahead))
+    hall.suspects = [{"line": 9, "about": "picture", "said": "the height is no width"}]
+    assert hall.found("places_the_posts").explanation == "line 9: the height is no width"

@@ -98,3 +98,18 @@ def test_cells_that_are_not_free():
     assert DRIVING.not_free(said, passed, passed) == ""
     said[:, ::2] = -1
     assert "steps along a ray" in DRIVING.not_free(said, passed, 0 * passed)
+
+
+def test_walls_that_are_widened():
+    said, hit, _ = grids()
+    said[DRIVING.widened(hit, 3.1)] = 100
+    alias = {"line": 7, "about": "alias", "said": "makes no copy"}
+    assert "about 3 cells thicker on every side" in DRIVING.thick(recording(), said, hit)
+    assert "(line 7: makes no copy)" in DRIVING.thick(recording(suspects=[alias]), said, hit)
+    half = np.where(np.arange(100) < 45, said, -1)
+    assert DRIVING.thick(recording(), half, hit) == ""  # at half of the walls
+    said[40:70] = 100
+    assert DRIVING.thick(recording(), said, hit) == ""  # elsewhere, too
+    said[:] = -1
+    said[hit] = 100
+    assert DRIVING.thick(recording(), said, hit) == ""

@@ -20,6 +20,7 @@ class Robot:
         now = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
         rate = message.angular_velocity.z
         bias = sum(self.rates) / len(self.rates)
+        self.rates.append(rate)
         dt = now - self.last
         self.heading += (rate - bias) * dt
         self.last = now
@@ -62,6 +63,15 @@ def test_a_right_file_has_none():
         ("message.header.stamp.sec + message", "message", "gyroscope", "begins again at 0 every second"),
         (" + message.header.stamp.nanosec / 1e9", "", "gyroscope", "whole seconds only"),
         ("sum(self.rates) / len(self.rates)", "(sum(self.rates) - 1)", "gyroscope", "the bias is the mean"),
+        ("now - self.last", "self.last - now", "gyroscope", "is negative"),
+        ("self.heading += (rate", "self.heading -= (rate", "gyroscope", "with a minus sign"),
+        ("(rate - bias) * dt", "(bias - rate) * dt", "gyroscope", "with a minus sign"),
+        ("rate = message.angular_velocity.z", "rate = radians(message.angular_velocity.z)", "gyroscope", "57 times"),
+        ("rate = message.angular_velocity.z", "rate = message.angular_velocity.z * pi / 180", "gyroscope", "57 times"),
+        ("sum(self.rates) / len(self.rates)", "np.std(self.rates)", "gyroscope", "how much the rates scatter"),
+        ("sum(self.rates) / len(self.rates)", "max(self.rates)", "gyroscope", "the largest of the rates"),
+        ("sum(self.rates) / len(self.rates)", "self.rates[-1]", "gyroscope", "a single one of the rates"),
+        ("2 * atan2(q.z, q.w)", "2 * acos(min(1, q.w))", "heading", "acos is never negative"),
         ("min(side)", "scan.ranges[90]", "ray", "takes a ray by its number"),
         ("min(side)", "min(scan.ranges)", "ray", "the nearest in any direction"),
         (
@@ -81,6 +91,32 @@ def test_each_is_found(old, new, about, words):
 def test_an_angle_that_is_brought_into_one_turn_by_hand():
     by_hand = RIGHT.replace("remainder(atan2", "self.wrapped(atan2") + "\nwhile turn > pi:\n    turn -= 2 * pi\n"
     assert suspects(by_hand.encode()) == []
+
+
+def test_parts_of_a_time_in_a_step_and_in_a_function():
+    sum_of = "self.heading += (rate - bias) * (message.header.stamp.{0} - self.last.{0})"
+    for part, words in (("nanosec", "stamp.nanosec alone"), ("sec", "stamp.sec alone")):
+        text = RIGHT.replace("self.heading += (rate - bias) * dt", sum_of.format(part))
+        assert any(words in each["said"] for each in suspects(text.encode()))
+    function = RIGHT + "\n\ndef seconds(stamp):\n    return stamp.nanosec / 1e9\n\n\nprint(seconds(now))\n"
+    assert any("stamp.nanosec alone" in each["said"] for each in suspects(function.encode()))
+    assert suspects(function.replace("return stamp", "return stamp.sec + stamp").encode()) == []
+
+
+def test_a_second_name_is_no_copy():
+    way = "def way(self):\n    grid = self.map{}\n    grid[wide(grid == 100)] = 100\n"
+    assert ["makes no copy" in each["said"] for each in suspects(way.format("").encode())] == [True]
+    assert suspects(way.format(".copy()").encode()) == []
+
+
+def test_the_rate_before_is_no_bias():
+    text = RIGHT.replace("(rate - bias) * dt", "((rate + self.rates[-1]) / 2 - bias) * dt")
+    assert suspects(text.encode()) == []
+
+
+def test_a_sign_that_is_asked_for_tells_left_from_right():
+    text = RIGHT.replace("2 * atan2(q.z, q.w)", "2 * acos(q.w)\n        if q.z < 0:\n            self.heading *= -1")
+    assert suspects(text.encode()) == []
 
 
 def test_what_is_no_python_has_none():
