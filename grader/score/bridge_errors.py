@@ -10,6 +10,11 @@ import re
 # Pattern of an error -> what is mistaken. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(r"'(?:[^' ]*)([,;])' is |cannot become \S*([,;])(?:;|$)|must be .*, not \S*([,;])$"),
+        "the {0} at the end is taken for a part of the value: YAML needs nothing at the end of a line, which ends a "
+        "value by itself",
+    ),
+    (
         re.compile(r"cannot become ((?:gz|ignition)::\S+::\w+)|conversion is known for ((?:gz|ignition)::\S+)"),
         "{0} is the name of a class in C++; this file writes Gazebo's types with points, gz.msgs.NAME",
     ),

@@ -12,6 +12,7 @@ from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, Launc
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
 MAIN = "generate_launch_description"
+ENDLESS = ("gz_sim.launch.py", "parameter_bridge", "robot_state_publisher", "static_transform_publisher")
 
 
 def never_added(file: LaunchFile) -> Iterator[Place]:
@@ -79,8 +80,8 @@ def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
     """Find what waits for the end of a program that runs as long as the launch does."""
     for call in file.calls("OnProcessExit"):
         then = argument(call, "on_exit")
-        target = file.value(argument(call, "target_action"))
-        what = _endless(target if target is not None else file.tree)
+        target = argument(call, "target_action", 0)
+        what = _endless(*(file.parts(target) if target is not None else [file.tree]))
         ends = any(text(each) in ("create", "remove") for each in file.nodes)
         if what and then is not None and _starts(then, file) and not (target is None and ends):
             yield (
@@ -90,12 +91,12 @@ def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def _endless(target: ast.AST) -> str:
+def _endless(*parts: ast.AST) -> str:
     """Return the name of the program that an action starts, if it is a simulator or a bridge; else nothing."""
-    said = [text(each) for each in ast.walk(target)]
+    said = [text(each) for part in parts for each in ast.walk(part)]
     if {"gz", "sim"} <= set(said) or any(each.startswith("gz sim") for each in said):
         return "gz sim"
-    return next((name for name in ("gz_sim.launch.py", "parameter_bridge") if name in said), "")
+    return next((name for name in ENDLESS if name in said), "")
 
 
 def _starts(then: ast.expr, file: LaunchFile) -> bool:
