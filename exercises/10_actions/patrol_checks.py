@@ -320,7 +320,7 @@ def cancel(recording, parameters):
         why = "The goal ended, but the robot drove on: it obeys the last command until it gets a Twist of zeros"
         return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
     if moving > 0.03:
-        why = "Your server accepts the cancellation and drives on: the loop never asks goal_handle.is_cancel_requested"
+        why = MISCONCEPTIONS.ends_late(run, found, at)
         return Finding(False, expected, f"{moving:.2f} m/s half a second later", at + STOPPED, explanation=why)
     if found is None:
         why = (
@@ -336,5 +336,6 @@ def cancel(recording, parameters):
         why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
     elif found["visited"] not in counts:
         been = f"{min(counts)} of the waypoints when it was cancelled"
-        why = f"visited is {found['visited']}, but the robot had been at {been}"
+        why = next(filter(None, (MISCONCEPTIONS.counts_on(run, found, count) for count in sorted(counts))), "")
+        why = why or f"visited is {found['visited']}, but the robot had been at {been}"
     return Finding(not why, expected, measured, found["at"], explanation=why)

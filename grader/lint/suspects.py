@@ -1,4 +1,4 @@
-"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes or rays.
+"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays or goals.
 
 Each suspect says what it is about. A check that has seen the symptom in the recording names the suspect of that kind
 (`grader/score/suspects.py`); without a symptom nobody hears of it.
@@ -9,10 +9,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import gyroscopes, headings, rays
+from gz_course.grader.lint import gyroscopes, headings, patrols, rays
 from gz_course.grader.lint.syntax import Places, places_in
 
-LOOKS = (*headings.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS)
+LOOKS = (*headings.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS, *patrols.LOOKS)
 MOST = 12  # suspects kept
 
 

@@ -156,7 +156,30 @@ def test_how_robots_stand_instead_of_in_a_row(places, words):
 
 @pytest.mark.parametrize(
     ("topic", "words"),
-    [("/robot2/front/odom", "was not remapped"), ("/robot2/robot1/odom", "write /robot1/odom")],
+    [
+        ("/robot2/front/odom", "was not remapped"),
+        ("/robot2/robot1/odom", "write /robot1/odom"),
+        ("/robot2/follower/odom", "~ stands for namespace and name of a node, /robot2/follower; odom without ~"),
+    ],
 )
 def test_a_name_below_the_namespace_of_a_follower(topic, words):
-    assert words in CHECKS["_below_its_namespace"](topic, "robot2")
+    assert words in CHECKS["_below_its_namespace"](topic, "robot2", ["/robot1/odom", "/robot2/odom"])
+    assert "write" not in CHECKS["_below_its_namespace"]("/robot2/robot5/odom", "robot2", ["/robot1/odom"])
+
+
+@pytest.mark.parametrize(
+    ("node", "words"),
+    [
+        ("/robot1/bridge", "a namespace is not put before a name that begins with /, so /cmd_vel is one topic"),
+        ("/bridge", "without a namespace, the topics of all robots are one"),
+    ],
+)
+def test_a_name_that_begins_with_a_slash_in_a_namespace(node, words, record):
+    bridge = {
+        "source": node, "ros_topic": "/cmd_vel", "ros_type": "geometry_msgs/msg/Twist", "to_ros": 0, "to_gz": 9,
+        "gz_topic": "/model/robot1/cmd_vel", "gz_type": "gz.msgs.Twist", "direction": "ROS_TO_GZ",
+        "publisher_qos": None, "subscription_qos": None,
+    }  # fmt: skip
+    launch = {"arguments": {"robots": "2"}, "bridges_started": [{"node": node}]}
+    finding = CHECKS["own_topics"](record(facts={"bridges": [bridge], "launch": launch}), {})
+    assert words in finding.explanation

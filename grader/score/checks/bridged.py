@@ -106,7 +106,8 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     kind = "subscribers" if wanted["direction"] == "ROS_TO_GZ" else "publishers"
     does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
     if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
-        what, other = (CONTENTS.get(kind.rpartition(".")[2], "") for kind in (bridge.gz_type, wanted["gz_type"]))
+        carried = (gz[bridge.gz_topic].get("types") or [""])[0]
+        what, other = (CONTENTS.get(name.rpartition(".")[2], "") for name in (carried, wanted["gz_type"]))
         said = f": it carries {what}, and {bridge.ros_topic} is to carry {other}" if what and other != what else ""
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}{said}"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)

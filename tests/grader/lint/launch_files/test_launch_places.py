@@ -93,6 +93,16 @@ def test_a_right_file_has_none():
         ("        OpaqueFunction(function=later),\n", "", "later makes actions, but nothing calls it"),
         ("target_action=create", "target_action=runs", "only when gz sim has ended"),
         ("target_action=create", "target_action=bridge", "only when parameter_bridge has ended"),
+        (
+            "[\"gz\", \"sim\", \"-s\", \"-r\", world], condition=UnlessCondition(paused))\n    create =",
+            "command)\n    command = [\"gz\", \"sim\"]\n    after = OnProcessExit(target_action=runs, on_exit=[watch])\n"
+            "    print(after)\n    create =",
+            "only when gz sim has ended",
+        ),
+        ('["-name", "robot"]', '["-x", world, "-Y", LaunchConfiguration("yaw")]', ""),
+        ('["-name", "robot"]', '["-R", LaunchConfiguration("yaw")]', "-Y is yaw"),
+        ('["-name", "robot"]', '[*("-Y", LaunchConfiguration("y"))]', "-y is the place along y"),
+        ('["-name", "robot"]', '["-y", LaunchConfiguration("x")]', "here it gets the launch argument x: -x is"),
         ("period=2.0", "period=30.0", "waits 30 s"),
         ('"sim", "-s", world]', '"sim" "-s", world]', 'a comma is missing between "sim" and "-s"'),
         ('["gz", "sim", "-s", world]', '["setsid", "gz", "sim", "-s", world]', "setsid takes the program away"),
