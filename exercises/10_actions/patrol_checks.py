@@ -13,6 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.suspects import suspect
 
 NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
 LARGEST_GAP = 1.1  # [s] between two feedback messages
@@ -334,6 +335,8 @@ def cancel(recording, parameters):
     if found["status"] != "CANCELED":
         called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
         why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
+        if said := suspect(recording, "cancel"):
+            why = f"The cancelled goal ended as {found['status']}: {said}"
     elif found["visited"] not in counts:
         been = f"{min(counts)} of the waypoints when it was cancelled"
         why = next(filter(None, (MISCONCEPTIONS.counts_on(run, found, count) for count in sorted(counts))), "")

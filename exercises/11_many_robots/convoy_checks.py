@@ -143,7 +143,8 @@ def own_topics(recording, parameters):
         if not here:
             other = next((b.ros_topic for b in made if b.gz_topic == gz_topic), "")
             why = ""
-            spaces = {each["node"].rpartition("/")[0] for each in launch_facts(recording).get("bridges_started", [])}
+            nodes = [each["node"] for each in launch_facts(recording).get("bridges_started", [])]
+            spaces = {node.rpartition("/")[0] for node in nodes}
             if other in ("/cmd_vel", "/odom") and f"/{name_in(topic)}" in spaces:
                 why = (
                     f"a namespace is not put before a name that begins with /, so {other} is one topic of all robots "
@@ -152,6 +153,8 @@ def own_topics(recording, parameters):
                 )
             elif other in ("/cmd_vel", "/odom"):
                 why = "without a namespace, the topics of all robots are one"
+            elif own := [node for node in nodes if other.startswith(f"{node}/")]:
+                why = _private(other, own[0])
             elif other == gz_topic:
                 why = f"a remapping to {topic} is missing, or its two names are exchanged: (from, to)"
                 if f"/{name_in(topic)}" in spaces:

@@ -50,11 +50,11 @@ def _in_loop(parts: list[ast.stmt] | list[ast.expr], bound: set[str]) -> Iterato
                 name, what = free[0], "lambda" if isinstance(function, ast.Lambda) else f"function {function.name}"
                 written = [each.arg for each in function.args.args]
                 head = ", ".join([*written, f"{name}={name}"])
-                right = f"lambda {head}: ..." if isinstance(function, ast.Lambda) else f"def {function.name}({head})"
+                right = f"lambda {head}:" if isinstance(function, ast.Lambda) else f"def {function.name}({head})"
                 yield (
                     function.lineno,
                     f"this {what} reads {name} when it is called, and the loop is over then: every one of them gets "
-                    f"the last value of {name}. A default keeps the value of this round: {right}",
+                    f"the last value of {name}. A default keeps the value of this round, {right}",
                 )
 
 

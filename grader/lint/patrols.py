@@ -49,6 +49,25 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
         yield loop.lineno, "cancel", f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
 
 
+def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a cancelled goal that breaks out of the inner of two loops, where nothing ends the outer one."""
+    for outer in (n for n in ast.walk(tree) if isinstance(n, Loop)):
+        for place, inner in enumerate(outer.body):
+            if not isinstance(inner, Loop) or inner.orelse:
+                continue
+            behind = [each for part in outer.body[place + 1 :] for each in ast.walk(part)]
+            asked = [each for each in ast.walk(inner) if isinstance(each, ast.If) and _asks(each.test)]
+            left = [part for each in asked for part in each.body if isinstance(part, ast.Break)]
+            ahead = any(_asks(part) for part in outer.body[:place])
+            if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
+                yield (
+                    left[0].lineno,
+                    "cancel",
+                    f"this break leaves the inner loop only, and the loop in line {outer.lineno} goes on with the next "
+                    "waypoint: return from execute here, after canceled() and a Twist of zeros",
+                )
+
+
 def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
     made: dict[str, list[ast.Assign]] = {}
@@ -88,4 +107,4 @@ def _lines_of_init(tree: ast.AST) -> set[int]:
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
-LOOKS = (loops_that_do_not_ask, counts_that_go_on)
+LOOKS = (loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on)

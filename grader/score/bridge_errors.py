@@ -10,7 +10,10 @@ import re
 # Pattern of an error -> what is mistaken. {0} is the first group of the pattern.
 MEANINGS = (
     (
-        re.compile(r"'(?:[^' ]*)([,;])' is |cannot become \S*([,;])(?:;|$)|must be .*, not \S*([,;])$"),
+        re.compile(
+            r"'(?:[^' ]*)([,;])' is |\S([,;]) is not a ROS message type|cannot become \S*([,;])(?:;|$)"
+            r"|must be .*, not \S*([,;])$"
+        ),
         "the {0} at the end is taken for a part of the value: YAML needs nothing at the end of a line, which ends a "
         "value by itself",
     ),
@@ -30,6 +33,10 @@ MEANINGS = (
     (
         re.compile(r"expected a bridge .*found the text '([^']*@[^']*)'"),
         "that is how a bridge is given on the command line; in this file, each of its parts has a key of its own",
+    ),
+    (
+        re.compile(r"found the text '\w+ ?(=)"),
+        "between a key and its value stand a colon and a space in YAML, and no {0}",
     ),
     (
         re.compile(r"expected <block end>, but found '(?:\?|<block)"),

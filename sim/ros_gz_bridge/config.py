@@ -201,6 +201,10 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
         return "; a space is missing after the colon"
     before = next((n for n in range(line - 1, -1, -1) if lines[n].split("#")[0].strip()), None)
     if problem == "mapping values are not allowed here" and before is not None:
+        if re.match(r"\s*-\w+:", lines[before]):
+            return f"; a space is missing after the dash in line {before + 1}"
+        if re.match(r"\s*(- )?\w+:\S", lines[before]):
+            return f"; a space is missing after the colon in line {before + 1}"
         if ":" not in lines[before]:
             return f"; there is no colon in line {before + 1}"
         if _column(lines[before]) < _column(found):

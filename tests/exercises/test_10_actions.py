@@ -185,5 +185,5 @@ def test_why_a_cancelled_robot_drives_on(status, suspects, words):
     ],
 )
 def test_a_count_that_goes_on_is_named(visited, suspects, words):
-    finding = cancelled(Patrol([[1.2 * 0.98, 0.0]], speed=0.4), "CANCELED", visited, suspects=suspects)
+    finding = cancelled(Patrol([[1.0, 0.0]], speed=0.3), "CANCELED", visited, suspects=suspects)
     assert not finding.passed and words in finding.explanation, finding

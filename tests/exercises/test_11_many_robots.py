@@ -168,18 +168,20 @@ def test_a_name_below_the_namespace_of_a_follower(topic, words):
 
 
 @pytest.mark.parametrize(
-    ("node", "words"),
+    ("node", "topic", "words"),
     [
-        ("/robot1/bridge", "a namespace is not put before a name that begins with /, so /cmd_vel is one topic"),
-        ("/bridge", "without a namespace, the topics of all robots are one"),
+        ("/robot1/bridge", "/cmd_vel", "not put before a name that begins with /, so /cmd_vel is one topic"),
+        ("/bridge", "/cmd_vel", "without a namespace, the topics of all robots are one"),
+        ("/robot1/bridge", "/robot1/bridge/cmd_vel", "cmd_vel without ~ becomes /robot1/cmd_vel"),
     ],
 )
-def test_a_name_that_begins_with_a_slash_in_a_namespace(node, words, record):
+def test_names_of_bridges_in_namespaces(node, topic, words):
     bridge = {
-        "source": node, "ros_topic": "/cmd_vel", "ros_type": "geometry_msgs/msg/Twist", "to_ros": 0, "to_gz": 9,
+        "source": node, "ros_topic": topic, "ros_type": "geometry_msgs/msg/Twist", "to_ros": 0, "to_gz": 9,
         "gz_topic": "/model/robot1/cmd_vel", "gz_type": "gz.msgs.Twist", "direction": "ROS_TO_GZ",
         "publisher_qos": None, "subscription_qos": None,
     }  # fmt: skip
-    launch = {"arguments": {"robots": "2"}, "bridges_started": [{"node": node}]}
-    finding = CHECKS["own_topics"](record(facts={"bridges": [bridge], "launch": launch}), {})
+    facts = {"bridges": [bridge], "launch": {"bridges_started": [{"node": node}]}}
+    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
+    finding = CHECKS["own_topics"](recording, {})
     assert words in finding.explanation

@@ -110,6 +110,9 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
         what, other = (CONTENTS.get(name.rpartition(".")[2], "") for name in (carried, wanted["gz_type"]))
         said = f": it carries {what}, and {bridge.ros_topic} is to carry {other}" if what and other != what else ""
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}{said}"
+    if bridge.gz_topic.endswith((",", ";")):
+        end = bridge.gz_topic[-1]
+        return f"nobody in Gazebo {does} {bridge.gz_topic}: in YAML, the {end} at the end is a part of the name"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
     typo = "it is nearly right, look at its spelling: " if near else ""
     name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""

@@ -61,6 +61,14 @@ def test_a_loop_that_does_not_ask():
     assert "the loop that drives does not ask" in words
 
 
+def test_a_break_that_leaves_the_inner_loop_only():
+    broken = RIGHT.replace("    return self.stopped(handle, result)", "    break")
+    (words,) = said(broken, "cancel")
+    assert "leaves the inner loop only, and the loop in line 10 goes on" in words
+    again = "            if handle.is_cancel_requested:\n                break\n            result.visited += 1\n"
+    assert said(broken.replace("            result.visited += 1\n", again), "cancel") == []
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
