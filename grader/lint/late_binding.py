@@ -7,7 +7,7 @@ return the same result?"
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 Place = tuple[int, str]
 Function = ast.Lambda | ast.FunctionDef
@@ -23,6 +23,7 @@ Comprehension = ast.ListComp | ast.GeneratorExp | ast.SetComp | ast.DictComp
 def late_bound(tree: ast.AST) -> Iterator[Place]:
     """Find a function that reads the variable of a loop when the loop has given it its last value."""
     for loop in ast.walk(tree):
+        parts: Sequence[ast.AST]
         if isinstance(loop, ast.For):
             parts, bound = loop.body, _stored(loop.target)
             bound |= {name for part in parts for name in _stored(part)}
@@ -35,7 +36,7 @@ def late_bound(tree: ast.AST) -> Iterator[Place]:
             yield from _in_loop(parts, bound)
 
 
-def _in_loop(parts: list[ast.stmt] | list[ast.expr], bound: set[str]) -> Iterator[Place]:
+def _in_loop(parts: Sequence[ast.AST], bound: set[str]) -> Iterator[Place]:
     nodes = [each for part in parts for each in _own(part)]
     named = {each.name: each for each in nodes if isinstance(each, ast.FunctionDef)}
     for call in (each for each in nodes if isinstance(each, ast.Call)):

@@ -70,6 +70,8 @@ def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
 
 def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
+    if not _called(tree) & {"succeed"}:
+        return  # it executes no goals
     made: dict[str, list[ast.Assign]] = {}
     counted = {}
     for node in ast.walk(tree):

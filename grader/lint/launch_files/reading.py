@@ -78,7 +78,7 @@ class LaunchFile:
 
     def parts(self, node: ast.expr) -> list[ast.expr]:
         """Return an expression, and all that the names in it stand for, one after another."""
-        found, seen = [node], set()
+        found, seen = [node], set[str]()
         for each in found:
             names = {part.id for part in ast.walk(each) if isinstance(part, ast.Name)} - seen
             seen |= names
