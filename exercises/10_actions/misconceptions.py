@@ -5,6 +5,7 @@ import numpy as np
 from gz_course.grader.score.suspects import suspect
 
 MOVED = 0.1  # [m] a robot that moved less stood
+BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 SAME = 0.1  # of a speed, to be called the same
 
 
@@ -20,6 +21,17 @@ def went_elsewhere(run, goal, until):
         return stood(run, chosen)
     if said := suspect(run.recording, "heading", "angle"):
         return said
+    if words := other_places(way, points):
+        return f"The robot went elsewhere: {words}"
+    if len(points) > 1 and not _reaches(way, points[:1]) and _reaches(way, points[-1:]):
+        return (
+            "The robot drove to the last waypoint only: the goal holds a list of them, to be visited one after another"
+        )
+    return turned_wrong(run, chosen, points) or blind(run, goal)
+
+
+def other_places(way, points):
+    """Return what the waypoints were taken for, if a way leads to such places in their order; else nothing."""
     candidates = {
         "x and y of the waypoints are exchanged": points[:, ::-1],
         "y of the waypoints has the wrong sign: y grows to the left": points * (1, -1),
@@ -34,12 +46,8 @@ def went_elsewhere(run, goal, until):
     }
     for words, places in candidates.items():
         if not np.allclose(places, points) and _reaches(way, places):
-            return f"The robot went elsewhere: {words}"
-    if len(points) > 1 and not _reaches(way, points[:1]) and _reaches(way, points[-1:]):
-        return (
-            "The robot drove to the last waypoint only: the goal holds a list of them, to be visited one after another"
-        )
-    return turned_wrong(run, chosen, points) or blind(run, goal)
+            return words
+    return ""
 
 
 def _reaches(way, places):
@@ -118,18 +126,46 @@ def reached_early(run, goal):
             f"The patrol ended as {found['status']} before the robot had moved: what ends it must come after the loop "
             "that drives"
         )
+    if words := other_places(way, np.array(points)):
+        return f"The robot went elsewhere: {words}"
     near = [float(np.hypot(*(way - point).T).min()) for point in points]
     if max(near) < 0.6:
         return (
             f"Your server holds a waypoint for reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
             "asked for"
         )
-    if near[0] < 0.2:
+    if near[0] < 0.2 and np.hypot(*(way[-1] - points[0])) < 0.3:
         return (
             f"The patrol ended as {found['status']} after the first waypoint: a return, or a break, stands inside the "
             "loop"
         )
     return ""
+
+
+def ends_late(run, found, asked):
+    """Return why a robot drives on that was cancelled at a time `asked` [s]; `found` is the result, or None."""
+    why = "Your server accepts the cancellation and drives on"
+    if said := suspect(run.recording, "cancel"):
+        return f"{why}: {said}"
+    if found is None or found["status"] != "CANCELED":
+        return f"{why}: the loop never asks goal_handle.is_cancel_requested"
+    later = f"the goal ended as CANCELED {found['at'] - asked:.1f} s after it was cancelled"
+    place = run.way[np.searchsorted(run.times, found["at"]).clip(0, len(run.times) - 1)]
+    if np.hypot(*(np.array(run.waypoints("cancelled")) - place).T).min() < 0.2:
+        later += ", when the robot had come to a waypoint: goal_handle.is_cancel_requested is asked once per waypoint"
+        return f"{why}: {later}, and not in the loop that drives"
+    return f"{why}: {later}, because goal_handle.is_cancel_requested is asked too seldom"
+
+
+def counts_on(run, found, count):
+    """Find out whether `visited` of the cancelled patrol goes on from the patrol before; `count` is the right one."""
+    before = run.one("result", "patrol")
+    if before is None or not before["visited"] or found["visited"] != before["visited"] + count:
+        return ""
+    return (
+        f"visited is {found['visited']}: the {before['visited']} of the patrol before and {count} of this one, because "
+        f"the count goes on from goal to goal. {suspect(run.recording, 'result') or BEGIN_ANEW}"
+    )
 
 
 def drives_on(run):

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.suspects import suspect
 
 NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
 LARGEST_GAP = 1.1  # [s] between two feedback messages
@@ -320,7 +321,7 @@ def cancel(recording, parameters):
         why = "The goal ended, but the robot drove on: it obeys the last command until it gets a Twist of zeros"
         return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
     if moving > 0.03:
-        why = "Your server accepts the cancellation and drives on: the loop never asks goal_handle.is_cancel_requested"
+        why = MISCONCEPTIONS.ends_late(run, found, at)
         return Finding(False, expected, f"{moving:.2f} m/s half a second later", at + STOPPED, explanation=why)
     if found is None:
         why = (
@@ -334,7 +335,10 @@ def cancel(recording, parameters):
     if found["status"] != "CANCELED":
         called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
         why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
+        if said := suspect(recording, "cancel"):
+            why = f"The cancelled goal ended as {found['status']}: {said}"
     elif found["visited"] not in counts:
         been = f"{min(counts)} of the waypoints when it was cancelled"
-        why = f"visited is {found['visited']}, but the robot had been at {been}"
+        why = next(filter(None, (MISCONCEPTIONS.counts_on(run, found, count) for count in sorted(counts))), "")
+        why = why or f"visited is {found['visited']}, but the robot had been at {been}"
     return Finding(not why, expected, measured, found["at"], explanation=why)

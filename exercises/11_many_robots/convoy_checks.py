@@ -124,6 +124,11 @@ def one_clock(recording, parameters):
     return Finding(found[0].to_ros > 5, expected, f"{found[0].to_ros} messages of the clock came")
 
 
+def name_in(topic):
+    """Return the first part of a topic's name: the robot of /robot1/odom."""
+    return topic.split("/")[1]
+
+
 def own_topics(recording, parameters):
     """Pass if every robot's commands and odometry are bridged below its name, each way once."""
     names, called = _names(recording)
@@ -138,14 +143,21 @@ def own_topics(recording, parameters):
         if not here:
             other = next((b.ros_topic for b in made if b.gz_topic == gz_topic), "")
             why = ""
-            if other in ("/cmd_vel", "/odom"):
+            nodes = [each["node"] for each in launch_facts(recording).get("bridges_started", [])]
+            spaces = {node.rpartition("/")[0] for node in nodes}
+            if other in ("/cmd_vel", "/odom") and f"/{name_in(topic)}" in spaces:
+                why = (
+                    f"a namespace is not put before a name that begins with /, so {other} is one topic of all robots "
+                    f"although the bridge runs in the namespace /{name_in(topic)}: {other[1:]} without the /, or "
+                    f"{topic}, is the name to remap to"
+                )
+            elif other in ("/cmd_vel", "/odom"):
                 why = "without a namespace, the topics of all robots are one"
+            elif own := [node for node in nodes if other.startswith(f"{node}/")]:
+                why = _private(other, own[0])
             elif other == gz_topic:
-                spaces = {
-                    each["node"].rpartition("/")[0] for each in launch_facts(recording).get("bridges_started", [])
-                }
                 why = f"a remapping to {topic} is missing, or its two names are exchanged: (from, to)"
-                if f"/{topic.split('/')[1]}" in spaces:
+                if f"/{name_in(topic)}" in spaces:
                     why = "a namespace does not change a name that begins with /: each needs a remapping (from, to)"
             elif other:
                 why = f"its name in ROS should be {topic}: the second of the two names of its remapping"
@@ -206,7 +218,7 @@ def listens_to_the_one_in_front(recording, parameters):
             elif heard == sorted({f"/robot1/{HEARS}", f"/{name}/{HEARS}"}):
                 why = f"in front of {name} is {front}, not robot1"
             elif below := [topic for topic in heard if topic.startswith(f"/{name}/") and topic.count("/") > 2]:
-                why = _below_its_namespace(below[0], name)
+                why = _below_its_namespace(below[0], name, wanted)
             elif heard == [f"/{name}/{HEARS}"]:
                 why = f"it hears only itself: front/odom must become /{front}/{HEARS} by a remapping"
             elif heard == [f"/{front}/{HEARS}"]:
@@ -220,6 +232,8 @@ def listens_to_the_one_in_front(recording, parameters):
                 why = "a name that begins with / has no namespace"
             elif told == [f"/{front}/{DRIVES}"]:
                 why = "it steers the robot in front instead of its own"
+            elif told and told[0].startswith(f"{node}/"):
+                why = _private(told[0], node)
             elif told and told[0].startswith(f"/{name}/"):
                 why = f"the topic of its robot is /{name}/{DRIVES}"
             measured = f"{node} publishes on {', '.join(told) or 'nothing'}"
@@ -235,12 +249,24 @@ def _no_program(recording):
     return next((match[1] for match in lines if match), "")
 
 
-def _below_its_namespace(topic, name):
+def _below_its_namespace(topic, name, wanted):
     """Return why a subscription is below the follower's own namespace."""
     relative = topic.removeprefix(f"/{name}/")
     if relative == f"front/{HEARS}":
         return f"front/{HEARS} was not remapped: it stays a name below /{name}"
-    return f"{relative} does not begin with /, so it is put into the namespace /{name}: write /{relative}"
+    if relative.startswith("follower/"):
+        return _private(topic, f"/{name}/follower")
+    write = f": write /{relative}" if f"/{relative}" in wanted else ""
+    return f"{relative} does not begin with /, so it is put into the namespace /{name}{write}"
+
+
+def _private(topic, node):
+    """Explain the name of a topic that has the node's own name in it."""
+    last, space = topic.removeprefix(f"{node}/"), node.rpartition("/")[0]
+    return (
+        f"{topic} has the name of the node in it: ~ stands for namespace and name of a node, {node}; {last} without ~ "
+        f"becomes {space}/{last}"
+    )
 
 
 def _reason(sent):

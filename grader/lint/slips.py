@@ -14,6 +14,7 @@ from gz_course.grader.lint import (
     action_servers,
     angles,
     callbacks,
+    late_binding,
     names,
     no_effect,
     not_what_they_seem,
@@ -240,7 +241,7 @@ LOOKS = (
     strings_with_braces, strengths, stray_methods, blocking, waits_for_transforms,
 )  # fmt: skip
 ROOMS = (
-    LOOKS, callbacks.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS, no_effect.LOOKS,
-    parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
+    LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
+    no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes or rays.
+"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays or goals.
 
 Each suspect says what it is about. A check that has seen the symptom in the recording names the suspect of that kind
 (`grader/score/suspects.py`); without a symptom nobody hears of it.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import aliases, bias_use, gyroscopes, headings, known_places, pictures, rays
+from gz_course.grader.lint import aliases, bias_use, gyroscopes, headings, known_places, patrols, pictures, rays
 from gz_course.grader.lint.syntax import Places, places_in
 
 LOOKS = (
@@ -18,6 +18,7 @@ LOOKS = (
     *bias_use.LOOKS,
     *rays.LOOKS,
     *known_places.LOOKS,
+    *patrols.LOOKS,
     *pictures.LOOKS,
     *aliases.LOOKS,
 )

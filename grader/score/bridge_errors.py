@@ -10,6 +10,14 @@ import re
 # Pattern of an error -> what is mistaken. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(
+            r"'(?:[^' ]*)([,;])' is |\S([,;]) is not a ROS message type|cannot become \S*([,;])(?:;|$)"
+            r"|must be .*, not \S*([,;])$"
+        ),
+        "the {0} at the end is taken for a part of the value: YAML needs nothing at the end of a line, which ends a "
+        "value by itself",
+    ),
+    (
         re.compile(r"cannot become ((?:gz|ignition)::\S+::\w+)|conversion is known for ((?:gz|ignition)::\S+)"),
         "{0} is the name of a class in C++; this file writes Gazebo's types with points, gz.msgs.NAME",
     ),
@@ -25,6 +33,10 @@ MEANINGS = (
     (
         re.compile(r"expected a bridge .*found the text '([^']*@[^']*)'"),
         "that is how a bridge is given on the command line; in this file, each of its parts has a key of its own",
+    ),
+    (
+        re.compile(r"found the text '\w+ ?(=)"),
+        "between a key and its value stand a colon and a space in YAML, and no {0}",
     ),
     (
         re.compile(r"expected <block end>, but found '(?:\?|<block)"),

@@ -116,11 +116,34 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     config = Config()
     if further is not None:
         config.findings.append(Finding(_place(file_name, further), _SECOND_DOCUMENT, tolerated=True))
+    config.findings += _dashes(file_name, root.value)
     for node in root.value:
         config.add(_entry(file_name, node, config.findings, lazy))
     config.findings.extend(check(config.topics, config.services))
     config.findings.sort(key=lambda finding: int(finding.place.rpartition(":")[2]))  # by line
     return config
+
+
+def _dashes(file_name: str, nodes: list[yaml.Node]) -> list[Finding]:
+    """Return the finding that a dash stands before every key, so that each is an entry of its own; else nothing.
+
+    No bridge has a single key, so two of them in a row with different keys are parts of one.
+    """
+    alone = [_only_key(node) for node in nodes]
+    for node, one, other in zip(nodes, alone, alone[1:], strict=False):
+        if one in KEYS and other in KEYS and one != other:
+            sentence = (
+                f"each dash begins another bridge, so '{one}' and '{other}' belong to two bridges here; write the dash "
+                "before the first key of a bridge only, and its other keys below that one, with two spaces for the dash"
+            )
+            return [Finding(_place(file_name, node), sentence)]
+    return []
+
+
+def _only_key(node: yaml.Node) -> str:
+    """Return the key of an entry with a single one; empty if it has none, or more."""
+    keys = [key for key, _ in node.value] if isinstance(node, yaml.MappingNode) else []
+    return str(keys[0].value) if len(keys) == 1 and isinstance(keys[0], yaml.ScalarNode) else ""
 
 
 def _only(place: str, sentence: str, *, fatal: bool = False) -> Config:
@@ -178,6 +201,10 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
         return "; a space is missing after the colon"
     before = next((n for n in range(line - 1, -1, -1) if lines[n].split("#")[0].strip()), None)
     if problem == "mapping values are not allowed here" and before is not None:
+        if re.match(r"\s*-\w+:", lines[before]):
+            return f"; a space is missing after the dash in line {before + 1}"
+        if re.match(r"\s*(- )?\w+:\S", lines[before]):
+            return f"; a space is missing after the colon in line {before + 1}"
         if ":" not in lines[before]:
             return f"; there is no colon in line {before + 1}"
         if _column(lines[before]) < _column(found):

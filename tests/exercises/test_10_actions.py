@@ -91,6 +91,8 @@ def test_a_right_patrol_passes():
         (Patrol([[0.0, 1.2], [0.7, 1.2]], status=""), "x and y of the waypoints are exchanged"),
         (Patrol([[1.2, 0.0], [1.2, -0.7]], status=""), "y of the waypoints has the wrong sign"),
         (Patrol([[1.2, 0.0], [2.4, 0.7]], status=""), "as seen from the one before"),
+        (Patrol([[1.2, 0.0], [2.4, 0.7]]), "as seen from the one before"),
+        (Patrol([[0.0, 1.2], [0.7, 1.2]]), "x and y of the waypoints are exchanged"),
         (Patrol([[1.2, 0.7], [1.2, 0.0]], status=""), "in the opposite order"),
         (Patrol([[1.2, 0.0], [1.2, 0.4]]), "holds a waypoint for reached too early"),
         (Patrol([[1.2, 0.0]]), "after the first waypoint"),
@@ -137,3 +139,51 @@ def test_another_index_is_named(waypoint, words):
 
 def test_the_index_of_the_last_waypoint_is_no_count():
     assert "the index of the last waypoint" in found("result", Patrol(visited=1)).explanation
+
+
+def test_a_way_that_ends_elsewhere_is_no_return_in_the_loop():
+    assert "a return, or a break" not in found("visits", Patrol([[1.2, 0.0], [1.9, -0.4]])).explanation
+
+
+def cancelled(patrol, status="CANCELED", visited=1, late=0.0, suspects=()):
+    """Let a patrol be the one that is cancelled, at 4 s; its result comes `late` [s] after the robot has stopped."""
+    events = [(at, event, "cancelled" if event != "interface" else "", more) for at, event, _, more in patrol.events]
+    events = [each for each in events if each[1] != "result" and each[0] < 4.0]
+    before = [(0.3, "sent", "patrol", {"waypoints": POINTS, "speed": 0.4}), (0.3, "accepted", "patrol", {})]
+    before.append((0.4, "result", "patrol", {"status": "SUCCEEDED", "visited": 2}))
+    ended = [(patrol.end + late, "result", "cancelled", {"status": status, "visited": visited})] if status else []
+    patrol.events = before + events + [(4.0, "cancel", "cancelled", {})] + ended
+    patrol.facts = lambda: {"suspects": list(suspects)}
+    return found("cancel", patrol)
+
+
+SUSPECTS = [
+    {"line": 7, "about": "cancel", "said": "line 5 asks it once"},
+    {"line": 3, "about": "result", "said": "self.result is made once"},
+]
+
+
+@pytest.mark.parametrize(
+    ("status", "suspects", "words"),
+    [
+        ("SUCCEEDED", SUSPECTS, "drives on: line 7: line 5 asks it once"),
+        ("SUCCEEDED", (), "drives on: the loop never asks"),
+        ("CANCELED", (), "when the robot had come to a waypoint: goal_handle.is_cancel_requested is asked once per"),
+    ],
+)
+def test_why_a_cancelled_robot_drives_on(status, suspects, words):
+    finding = cancelled(Patrol(), status, suspects=suspects)
+    assert not finding.passed and words in finding.explanation, finding
+
+
+@pytest.mark.parametrize(
+    ("visited", "suspects", "words"),
+    [
+        (2, (), "the 2 of the patrol before and 0 of this one"),
+        (2, SUSPECTS, "goes on from goal to goal. line 3: self.result is made once"),
+        (5, SUSPECTS, "but the robot had been at 0 of the waypoints"),
+    ],
+)
+def test_a_count_that_goes_on_is_named(visited, suspects, words):
+    finding = cancelled(Patrol([[1.0, 0.0]], speed=0.3), "CANCELED", visited, suspects=suspects)
+    assert not finding.passed and words in finding.explanation, finding

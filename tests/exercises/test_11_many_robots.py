@@ -156,7 +156,32 @@ def test_how_robots_stand_instead_of_in_a_row(places, words):
 
 @pytest.mark.parametrize(
     ("topic", "words"),
-    [("/robot2/front/odom", "was not remapped"), ("/robot2/robot1/odom", "write /robot1/odom")],
+    [
+        ("/robot2/front/odom", "was not remapped"),
+        ("/robot2/robot1/odom", "write /robot1/odom"),
+        ("/robot2/follower/odom", "~ stands for namespace and name of a node, /robot2/follower; odom without ~"),
+    ],
 )
 def test_a_name_below_the_namespace_of_a_follower(topic, words):
-    assert words in CHECKS["_below_its_namespace"](topic, "robot2")
+    assert words in CHECKS["_below_its_namespace"](topic, "robot2", ["/robot1/odom", "/robot2/odom"])
+    assert "write" not in CHECKS["_below_its_namespace"]("/robot2/robot5/odom", "robot2", ["/robot1/odom"])
+
+
+@pytest.mark.parametrize(
+    ("node", "topic", "words"),
+    [
+        ("/robot1/bridge", "/cmd_vel", "not put before a name that begins with /, so /cmd_vel is one topic"),
+        ("/bridge", "/cmd_vel", "without a namespace, the topics of all robots are one"),
+        ("/robot1/bridge", "/robot1/bridge/cmd_vel", "cmd_vel without ~ becomes /robot1/cmd_vel"),
+    ],
+)
+def test_names_of_bridges_in_namespaces(node, topic, words):
+    bridge = {
+        "source": node, "ros_topic": topic, "ros_type": "geometry_msgs/msg/Twist", "to_ros": 0, "to_gz": 9,
+        "gz_topic": "/model/robot1/cmd_vel", "gz_type": "gz.msgs.Twist", "direction": "ROS_TO_GZ",
+        "publisher_qos": None, "subscription_qos": None,
+    }  # fmt: skip
+    facts = {"bridges": [bridge], "launch": {"bridges_started": [{"node": node}]}}
+    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
+    finding = CHECKS["own_topics"](recording, {})
+    assert words in finding.explanation

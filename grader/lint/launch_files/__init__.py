@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
+from gz_course.grader.lint.late_binding import late_bound
 from gz_course.grader.lint.launch_files import actions, commands, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
@@ -28,7 +29,7 @@ def launch_places(content: bytes) -> dict[str, Places]:
     def look(tree: ast.Module) -> Places:
         file = LaunchFile(tree)
         slips = [place for look in (*values.LOOKS, *actions.LOOKS, *commands.LOOKS) for place in look(file)]
-        slips += missing_commas(content)
+        slips += [*late_bound(tree), *missing_commas(content)]
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]
         found["fixed_worlds"] = [{"line": line, "world": world} for line, world in values.fixed_worlds(file)][:MOST]
         found["declared"] = [

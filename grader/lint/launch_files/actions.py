@@ -12,6 +12,7 @@ from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, Launc
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
 MAIN = "generate_launch_description"
+ENDLESS = ("gz_sim.launch.py", "parameter_bridge", "robot_state_publisher", "static_transform_publisher")
 
 
 def never_added(file: LaunchFile) -> Iterator[Place]:
@@ -79,8 +80,8 @@ def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
     """Find what waits for the end of a program that runs as long as the launch does."""
     for call in file.calls("OnProcessExit"):
         then = argument(call, "on_exit")
-        target = file.value(argument(call, "target_action"))
-        what = _endless(target if target is not None else file.tree)
+        target = argument(call, "target_action", 0)
+        what = _endless(*(file.parts(target) if target is not None else [file.tree]))
         ends = any(text(each) in ("create", "remove") for each in file.nodes)
         if what and then is not None and _starts(then, file) and not (target is None and ends):
             yield (
@@ -90,12 +91,43 @@ def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def _endless(target: ast.AST) -> str:
+def too_late(file: LaunchFile) -> Iterator[Place]:
+    """Find what starts only when the launch ends."""
+    for call in file.calls("OnShutdown"):
+        then = argument(call, "on_shutdown", 0)
+        if then is not None and _starts(then, file):
+            yield (
+                call.lineno,
+                "OnShutdown happens when the launch ends, so this is started too late: OnProcessStart is the event for "
+                "what is to start after another program",
+            )
+
+
+def waited_for_and_never_started(file: LaunchFile) -> Iterator[Place]:
+    """Find an action that an event handler waits for, and that is in no list."""
+    targets = [
+        given
+        for call in file.calls("OnProcessStart", "OnProcessExit", "OnExecutionComplete", "OnProcessIO")
+        if isinstance(given := argument(call, "target_action", 0), ast.Name)
+    ]
+    inside = {id(each) for each in targets}
+    for name in dict.fromkeys(each.id for each in targets):
+        loads = [n for n in file.nodes if isinstance(n, ast.Name) and n.id == name and isinstance(n.ctx, ast.Load)]
+        made = file.assigned.get(name, [])
+        if len(made) == 1 and _is_action(made[0]) and all(id(each) in inside for each in loads):
+            yield (
+                made[0].lineno,
+                f"an event handler waits for {name}, but {name} itself is in no list of actions, so it never starts: "
+                "LaunchDescription needs both, the action and the handler",
+            )
+
+
+def _endless(*parts: ast.AST) -> str:
     """Return the name of the program that an action starts, if it is a simulator or a bridge; else nothing."""
-    said = [text(each) for each in ast.walk(target)]
+    said = [text(each) for part in parts for each in ast.walk(part)]
     if {"gz", "sim"} <= set(said) or any(each.startswith("gz sim") for each in said):
         return "gz sim"
-    return next((name for name in ("gz_sim.launch.py", "parameter_bridge") if name in said), "")
+    return next((name for name in ENDLESS if name in said), "")
 
 
 def _starts(then: ast.expr, file: LaunchFile) -> bool:
@@ -145,5 +177,6 @@ def swapped_conditions(file: LaunchFile) -> Iterator[Place]:
 
 
 LOOKS = (
-    called_functions, functions_without_effect, never_added, events_that_never_come, long_waits, swapped_conditions,
+    called_functions, functions_without_effect, never_added, events_that_never_come, too_late,
+    waited_for_and_never_started, long_waits, swapped_conditions,
 )  # fmt: skip

@@ -76,6 +76,15 @@ class LaunchFile:
             return self.assigned[node.id][0]
         return node
 
+    def parts(self, node: ast.expr) -> list[ast.expr]:
+        """Return an expression, and all that the names in it stand for, one after another."""
+        found, seen = [node], set[str]()
+        for each in found:
+            names = {part.id for part in ast.walk(each) if isinstance(part, ast.Name)} - seen
+            seen |= names
+            found += [value for name in sorted(names) for value in self.assigned.get(name, ())]
+        return found
+
     def configuration(self, node: ast.AST) -> str:
         """Return the name of the launch configuration that an expression is; empty if it is none."""
         if isinstance(node, ast.Name):

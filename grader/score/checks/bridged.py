@@ -25,6 +25,19 @@ from gz_course.sim.did_you_mean import nearest_name
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
 CLOCK = "/clock"
+# What messages of a Gazebo type hold, in the words of a task.
+CONTENTS = {
+    "CameraInfo": "how a camera is built",
+    "Clock": "the time",
+    "Image": "pictures",
+    "IMU": "turning rates and accelerations",
+    "LaserScan": "scans: a distance for each ray of a lidar",
+    "Model": "the state of joints",
+    "Odometry": "odometry",
+    "PointCloudPacked": "point clouds, the same hits of a lidar or camera as points in space",
+    "Pose_V": "transforms",
+    "Twist": "velocities",
+}
 
 
 @check_kind("bridged")
@@ -93,7 +106,13 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     kind = "subscribers" if wanted["direction"] == "ROS_TO_GZ" else "publishers"
     does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
     if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
-        return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
+        carried = (gz[bridge.gz_topic].get("types") or [""])[0]
+        what, other = (CONTENTS.get(name.rpartition(".")[2], "") for name in (carried, wanted["gz_type"]))
+        said = f": it carries {what}, and {bridge.ros_topic} is to carry {other}" if what and other != what else ""
+        return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}{said}"
+    if bridge.gz_topic.endswith((",", ";")):
+        end = bridge.gz_topic[-1]
+        return f"nobody in Gazebo {does} {bridge.gz_topic}: in YAML, the {end} at the end is a part of the name"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
     typo = "it is nearly right, look at its spelling: " if near else ""
     name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""

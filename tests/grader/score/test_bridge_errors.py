@@ -23,6 +23,12 @@ ENTRY = """\
         ("  direction", "direction", "a line begins in another column"),
         (ENTRY, "- /scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan\n", "how a bridge is given on the command line"),
         (": GZ_TO_ROS", ": gz_to_ros", ""),
+        (": /scan", ": /scan,", "the , at the end is taken for a part of the value"),
+        (": GZ_TO_ROS", ": GZ_TO_ROS;", "the ; at the end is taken for a part of the value"),
+        ("gz.msgs.LaserScan", "gz.msgs.LaserScan,", "the , at the end is taken for a part of the value"),
+        ("sensor_msgs/msg/LaserScan", "sensor_msgs/msg/LaserScan,", "the , at the end is taken for a part"),
+        (": ", " = ", "stand a colon and a space in YAML, and no ="),
+        ("  direction", "  publisher_queue: 1,\n  direction", "the , at the end is taken for a part of the value"),
         ("gz_type_name: gz.msgs.LaserScan\n", "gz_type_name: gz.msgs.Image\n", ""),
     ],
 )
@@ -37,6 +43,9 @@ def test_what_was_mistaken_is_named(old, new, words):
     [
         ("bridge:\n  ros__parameters:\n    bridges: []\n", "no file of ROS parameters"),
         ("scan:\n  topic_name: /scan\n", "below keys such as 'scan'"),
+        (ENTRY.replace("  ", "- "), "'ros_topic_name' and 'gz_topic_name' belong to two bridges here"),
+        (ENTRY.replace(": ", ":", 1), "a space is missing after the colon in line 1"),
+        (ENTRY.replace("- ", "-"), "a space is missing after the dash in line 1"),
         (ENTRY.replace("ros_type_name", "ros_msg_type"), "the key 'ros_msg_type' is not known; did you mean"),
     ],
 )

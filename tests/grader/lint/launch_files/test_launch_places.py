@@ -81,7 +81,7 @@ def test_a_right_file_has_none():
             "'true' in small letters, not 'True'",
         ),
         ('world, paused = LaunchConfiguration("world")', "world, paused = sys.argv[1]", "sys.argv is the command"),
-        ("stands, runs, create, after", "stands, runs, after, bridge", ""),
+        ("stands, runs, create, after", "stands, runs, create, after, bridge", ""),
         ("stands, runs, create, after,", "stands, runs, create,", "after is made here, but it is not in"),
         ("        return [ExecuteProcess", "        [ExecuteProcess", "is made and then dropped"),
         (
@@ -93,6 +93,18 @@ def test_a_right_file_has_none():
         ("        OpaqueFunction(function=later),\n", "", "later makes actions, but nothing calls it"),
         ("target_action=create", "target_action=runs", "only when gz sim has ended"),
         ("target_action=create", "target_action=bridge", "only when parameter_bridge has ended"),
+        (
+            "[\"gz\", \"sim\", \"-s\", \"-r\", world], condition=UnlessCondition(paused))\n    create =",
+            "command)\n    command = [\"gz\", \"sim\"]\n    print(OnProcessExit(target_action=runs, on_exit=[watch]))\n"
+            "    create =",
+            "only when gz sim has ended",
+        ),
+        ('["-name", "robot"]', '["-x", world, "-Y", LaunchConfiguration("yaw")]', ""),
+        ('["-name", "robot"]', '["-R", LaunchConfiguration("yaw")]', "-Y is yaw"),
+        ('["-name", "robot"]', '[*("-Y", LaunchConfiguration("y"))]', "-y is the place along y"),
+        ('["-name", "robot"]', '["-y", LaunchConfiguration("x")]', "here it gets the launch argument x: -x is"),
+        ("OnProcessExit(target_action=create, on_exit=", "OnShutdown(on_shutdown=", "happens when the launch ends"),
+        ("stands, runs, create, after", "stands, runs, after", "an event handler waits for create, but create itself"),
         ("period=2.0", "period=30.0", "waits 30 s"),
         ('"sim", "-s", world]', '"sim" "-s", world]', 'a comma is missing between "sim" and "-s"'),
         ('["gz", "sim", "-s", world]', '["setsid", "gz", "sim", "-s", world]', "setsid takes the program away"),

@@ -85,6 +85,8 @@ def test_right_bridges_pass(found):
         ({"ros_topic": "/scans", "gz_topic": "/x"}, ["no bridge has the ROS topic /scan", "is it '/scans'?"]),
         ({"gz_topic": "/lidarr"}, ["line 6", "nobody in Gazebo publishes /lidarr", "look at its spelling"]),
         ({"gz_topic": "/imu"}, ["line 6", "/imu is not the Gazebo topic that belongs to /scan"]),
+        ({"gz_topic": "/lidar,"}, ["in YAML, the , at the end is a part of the name"]),
+        ({"gz_topic": "/imu"}, ["it carries turning rates and accelerations, and /scan is to carry scans"]),
         ({"ros_type": "sensor_msgs/msg/Range"}, ["line 6", "but the node uses sensor_msgs/msg/LaserScan"]),
         ({"gz_type": "gz.msgs.IMU"}, ["line 6", "in Gazebo it is gz.msgs.LaserScan"]),
         ({"direction": "BIDIRECTIONAL"}, ["line 6", "goes both ways"]),

@@ -1,0 +1,112 @@
+"""Suspects in an action server that drives: a loop that never asks for a cancellation, a count that goes on."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+Suspect = tuple[int, str, str]
+ASKS = "is_cancel_requested"
+STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
+Loop = ast.While | ast.For
+
+
+def _called(node: ast.AST) -> set[str]:
+    """Return the last parts of the names of what is called in a node."""
+    return {ast.unparse(n.func).rpartition(".")[2] for n in ast.walk(node) if isinstance(n, ast.Call)}
+
+
+def _asks(node: ast.AST) -> list[int]:
+    """Return the lines that ask for a cancellation."""
+    return sorted(each.lineno for each in ast.walk(node) if isinstance(each, ast.Attribute) and each.attr == ASKS)
+
+
+def _askers(tree: ast.AST) -> set[str]:
+    """Return the functions that ask for a cancellation, themselves or by a function that they call."""
+    functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
+    found = {each.name for each in functions if _asks(each)}
+    for _ in functions:
+        more = {each.name for each in functions if _called(each) & found} - found
+        if not more:
+            break
+        found |= more
+    return found
+
+
+def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop that drives without asking for a cancellation, in a file that asks for it elsewhere."""
+    lines, askers = _asks(tree), _askers(tree)
+    if not lines:
+        return
+    for loop in ast.walk(tree):
+        if not isinstance(loop, Loop) or not _called(loop) & STEPS or _asks(loop) or _called(loop) & askers:
+            continue
+        if any(isinstance(each, Loop) and each is not loop and _called(each) & STEPS for each in ast.walk(loop)):
+            continue
+        around = any(isinstance(n, Loop) and loop in ast.walk(n) and lines[0] in _asks(n) for n in ast.walk(tree))
+        where = "for each waypoint, " if around else ""
+        when = f"line {lines[0]} asks it {'once ' if around else ''}{where}outside of"
+        yield loop.lineno, "cancel", f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
+
+
+def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a cancelled goal that breaks out of the inner of two loops, where nothing ends the outer one."""
+    for outer in (n for n in ast.walk(tree) if isinstance(n, Loop)):
+        for place, inner in enumerate(outer.body):
+            if not isinstance(inner, Loop) or inner.orelse:
+                continue
+            behind = [each for part in outer.body[place + 1 :] for each in ast.walk(part)]
+            asked = [each for each in ast.walk(inner) if isinstance(each, ast.If) and _asks(each.test)]
+            left = [part for each in asked for part in each.body if isinstance(part, ast.Break)]
+            ahead = any(_asks(part) for part in outer.body[:place])
+            if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
+                yield (
+                    left[0].lineno,
+                    "cancel",
+                    f"this break leaves the inner loop only, and the loop in line {outer.lineno} goes on with the next "
+                    "waypoint: return from execute here, after canceled() and a Twist of zeros",
+                )
+
+
+def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
+    if not _called(tree) & {"succeed"}:
+        return  # it executes no goals
+    made: dict[str, list[ast.Assign]] = {}
+    counted = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                made.setdefault(ast.unparse(target), []).append(node)
+        elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
+            counted[ast.unparse(node.target)] = node.lineno
+    handed = {ast.unparse(n.value) for n in ast.walk(tree) if isinstance(n, ast.Assign | ast.keyword)}
+    first = _lines_of_init(tree)
+    for name, line in counted.items():
+        whole, _, field = name.rpartition(".")
+        own = made.get(whole, [])
+        if whole.startswith("self.") and len(own) == 1 and own[0].lineno in first and name not in made:
+            made_by = ast.unparse(own[0].value)
+            if made_by.rpartition(".")[2].startswith("Result("):
+                yield (
+                    own[0].lineno,
+                    "result",
+                    f"{whole} is made once for all goals, and line {line} counts {field} on: {made_by} belongs into "
+                    "the function that executes a goal",
+                )
+        begun = made.get(name, [])
+        if whole == "self" and len(begun) == 1 and begun[0].lineno in first and name in handed:
+            yield (
+                begun[0].lineno,
+                "result",
+                f"{name} is set once for all goals, and line {line} counts it on: it begins anew where a goal is "
+                "executed",
+            )
+
+
+def _lines_of_init(tree: ast.AST) -> set[int]:
+    functions = (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef) and n.name == "__init__")
+    return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
+
+
+LOOKS = (loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on)
