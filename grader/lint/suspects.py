@@ -9,10 +9,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import gyroscopes, headings, rays
+from gz_course.grader.lint import bearings, feedback, gyroscopes, headings, rays
 from gz_course.grader.lint.syntax import Places, places_in
 
-LOOKS = (*headings.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS)
+LOOKS = (*headings.LOOKS, *gyroscopes.LOOKS, *rays.LOOKS, *bearings.LOOKS, *feedback.LOOKS)
 MOST = 12  # suspects kept
 
 

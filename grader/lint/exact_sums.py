@@ -1,0 +1,87 @@
+"""A sum of floats that is compared with == and never becomes exactly that number; used by `slips.py`.
+
+The sum is computed as the program does it, so what is reported is proven: 0.25 added four times is 1.0, 0.1 added ten
+times is not.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.constants import Number, named_numbers, number
+
+Place = tuple[int, str]
+MOST_STEPS = 100_000  # added at most; no timer of a run fires that often
+
+
+def compared_exactly(tree: ast.AST) -> Iterator[Place]:
+    """Find `elapsed == 1.0` where elapsed is only set to a number and to itself plus a step."""
+    known = named_numbers(tree)
+    steps = _steps(tree, known)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+            continue
+        for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
+            name, limit = ast.unparse(one), number(other, known)
+            if name not in steps or limit is None:
+                continue
+            start, step = steps[name]
+            around = _around(start, step, limit)
+            if around is not None:
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]}: {name} is never exactly {limit:g}: adding {step:g} again and again "
+                    f"gives {around[0]!r}, then {around[1]!r}, because a float is rounded; compare with "
+                    f"{'>=' if step > 0 else '<='}, or count in whole numbers",
+                )
+
+
+def _steps(tree: ast.AST, known: dict[str, Number]) -> dict[str, tuple[Number, Number]]:
+    """Return start and step of each name that is only ever set to one number, and to itself plus one number."""
+    starts: dict[str, set[Number | None]] = {}
+    added: dict[str, set[Number | None]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                name = ast.unparse(target)
+                match node.value:
+                    case ast.BinOp(left=left, op=op, right=right) if ast.unparse(left) == name:
+                        added.setdefault(name, set()).add(_change(op, number(right, known)))
+                    case value:
+                        starts.setdefault(name, set()).add(number(value, known))
+        elif isinstance(node, ast.AugAssign):
+            change = _change(node.op, number(node.value, known))
+            added.setdefault(ast.unparse(node.target), set()).add(change)
+        elif isinstance(node, ast.For | ast.AnnAssign | ast.NamedExpr):
+            value = node.value if isinstance(node, ast.AnnAssign) else None
+            starts.setdefault(ast.unparse(node.target), set()).add(number(value, known))
+    found: dict[str, tuple[Number, Number]] = {}
+    for name, steps in added.items():
+        begins = starts.get(name, set())
+        if len(steps) == 1 and len(begins) == 1:
+            (step,), (start,) = steps, begins
+            if step and start is not None:
+                found[name] = start, step
+    return found
+
+
+def _change(op: ast.operator, step: Number | None) -> Number | None:
+    """Return what a sum or difference adds; None if it is unknown, or another operation."""
+    sign = {ast.Add: 1, ast.Sub: -1}.get(type(op))
+    return None if step is None or sign is None else sign * step
+
+
+def _around(start: Number, step: Number, limit: Number) -> tuple[Number, Number] | None:
+    """Return the sums on both sides of a limit; None if a sum meets it, or if it is not on the way."""
+    if (limit - start) / step < 0 or (limit - start) / step > MOST_STEPS:
+        return None
+    value = start
+    while value != limit:
+        if (value + step > limit) if step > 0 else (value + step < limit):
+            return value, value + step
+        value += step
+    return None
+
+
+LOOKS = (compared_exactly,)
