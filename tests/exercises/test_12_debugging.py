@@ -86,7 +86,8 @@ def test_the_commands(given, words):
         (("sensors", "sensors/wall", "/wall"), "'sensors/wall', which means /sensors/sensors/wall in the namespace"),
         (("sensors", "/wall_ahead", "/wall"), "the name '/wall_ahead'; the node's topic is /sensors/wall"),
         (("sensors", "/wall", "wall"), "here, they are exchanged"),
-        (("", "sensors/wall", "/wall"), "lives in the namespace /sensors"),
+        (("", "sensors/wall", "/wall"), "here, they are exchanged"),
+        (("", "other", "/wall"), "lives in the namespace /sensors"),
         (("sensors", "other", "another"), "lives in the namespace /sensors"),
     ],
 )

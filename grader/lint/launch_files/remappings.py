@@ -1,4 +1,4 @@
-"""The remappings that a launch file gives its nodes; a check that has seen the topics knows whether they do anything."""
+"""The remappings that a launch file gives its nodes; whether they do anything, only the topics of a run show."""
 
 from __future__ import annotations
 
