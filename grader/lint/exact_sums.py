@@ -23,18 +23,40 @@ def compared_exactly(tree: ast.AST) -> Iterator[Place]:
         if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
             continue
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
-            name, limit = ast.unparse(one), number(other, known)
-            if name not in steps or limit is None:
-                continue
+            limit = number(other, known)
+            if limit is not None and (why := _never(one, limit, steps, known)):
+                yield node.lineno, f"{ast.unparse(node)[:60]}: {why}"
+
+
+def _never(node: ast.expr, limit: Number, steps: dict[str, tuple[Number, Number]], known: dict[str, Number]) -> str:
+    """Return why a sum, a multiple of it or its remainder is never exactly a number; empty if it may be."""
+    match node:
+        case ast.Name() | ast.Attribute() if (name := ast.unparse(node)) in steps:
             start, step = steps[name]
             around = _around(start, step, limit)
-            if around is not None:
-                yield (
-                    node.lineno,
-                    f"{ast.unparse(node)[:60]}: {name} is never exactly {limit:g}: adding {step:g} again and again "
-                    f"gives {around[0]!r}, then {around[1]!r}, because a float is rounded; compare with "
-                    f"{'>=' if step > 0 else '<='}, or count in whole numbers",
-                )
+            said = f"{name} is never exactly {limit:g}: adding {step:g} again and again gives"
+        case ast.BinOp(left=ast.Name() | ast.Attribute() as of, op=ast.Mult(), right=right) if (
+            name := ast.unparse(of)
+        ) in steps and (factor := number(right, known)):
+            start, step = steps[name]
+            around = _around_multiple(start, step, factor, limit)
+            said = f"{ast.unparse(node)} is never exactly {limit:g}: it is"
+        case ast.BinOp(left=ast.Name() | ast.Attribute() as of, op=ast.Mod(), right=right) if (
+            name := ast.unparse(of)
+        ) in steps and (whole := number(right, known)):
+            start, step = steps[name]
+            around = _around(start, step, limit + whole)  # the first time that it is reached but for the start
+            said = f"{name} is not exactly {limit + whole:g}: adding {step:g} again and again gives"
+        case _:
+            return ""
+    if around is None:
+        return ""
+    way = (
+        "a whole number can be compared exactly: count the ticks"
+        if isinstance(node, ast.BinOp)
+        else (f"compare with {'>=' if step > 0 else '<='}, or count in whole numbers")
+    )
+    return f"{said} {around[0]!r}, then {around[1]!r}, because a float is rounded; {way}"
 
 
 def _steps(tree: ast.AST, known: dict[str, Number]) -> dict[str, tuple[Number, Number]]:
@@ -82,6 +104,18 @@ def _around(start: Number, step: Number, limit: Number) -> tuple[Number, Number]
             return value, value + step
         value += step
     return None
+
+
+def _around_multiple(start: Number, step: Number, factor: Number, limit: Number) -> tuple[Number, Number] | None:
+    """Return the multiples of the sums on both sides of a limit; None if one meets it, or if it is not on the way."""
+    nearest = round((limit / factor - start) / step)
+    if not 0 < nearest <= MOST_STEPS or not isinstance(start + step, int):
+        return None
+    values = [(start + count * step) * factor for count in range(nearest - 1, nearest + 2)]
+    if limit in values or not min(values) < limit < max(values):
+        return None
+    low, high = max(value for value in values if value < limit), min(value for value in values if value > limit)
+    return (low, high) if values[0] < values[-1] else (high, low)
 
 
 LOOKS = (compared_exactly,)

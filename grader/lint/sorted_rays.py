@@ -1,4 +1,4 @@
-"""An index into sorted ranges that is taken for the number of a ray; used by `slips.py`."""
+"""An index into sorted, filtered or reversed ranges that is taken for the number of a ray; used by `slips.py`."""
 
 from __future__ import annotations
 
@@ -6,99 +6,109 @@ import ast
 from collections.abc import Iterator
 
 Place = tuple[int, str]
-SORTS = frozenset({"sorted", "sort", "reversed"})  # of Python, and np.sort
 FINDS = frozenset({"index", "argmin", "nanargmin"})
+COPIES = frozenset({"list", "array", "asarray", "tuple"})
+# What was done to the ranges -> what it does to the numbers of their rays.
+DONE = {
+    "sorted": "sorting has changed the order",
+    "filtered": "what was left out has moved the others up",
+    "reversed": "it counts from the last ray",
+}
 
 
-def ranks_for_rays(tree: ast.AST) -> Iterator[Place]:
+def places_for_rays(tree: ast.AST) -> Iterator[Place]:
     """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
     for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
-        sorted_names = _sorted_names(function)
-        ranks = dict(_ranks(function, sorted_names))
+        found = dict(_places(function, dict(_changed_lists(function))))
+        stored = [node.id for node in ast.walk(function) if isinstance(node, ast.Name) and _is_store(node)]
         for node in ast.walk(function):
             if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
                 continue
             sides = ast.unparse(node.left), ast.unparse(node.right)
             for one, other in (sides, sides[::-1]):
-                if one in ranks and "increment" in other:
-                    line, what = ranks[one]
+                if one in found and "increment" in other and stored.count(one) == 1:
+                    line, what, how = found[one]
                     yield (
                         line,
-                        f"{one} is a place in sorted ranges ({what[:50]}): sorting has changed the order, so {one} is "
-                        "no longer the number of a ray; sort pairs (range, number of the ray), or take the index of "
-                        "the smallest in scan.ranges itself",
+                        f"{one} is a place in {how} ranges ({what[:50]}): {DONE[how]}, so {one} is not the number of a "
+                        "ray; keep pairs (range, number of the ray), or look for the index in scan.ranges itself",
                     )
                     return
 
 
-def _sorted_names(function: ast.FunctionDef) -> set[str]:
-    """Return the names of lists of ranges that were sorted, without the numbers of their rays."""
-    names = set()
+def _is_store(node: ast.Name) -> bool:
+    return isinstance(node.ctx, ast.Store)
+
+
+def _changed_lists(function: ast.FunctionDef) -> Iterator[tuple[str, str]]:
+    """Yield the names of lists of plain ranges that are not as the scan has them, and what was done to them."""
     for node in ast.walk(function):
-        if isinstance(node, ast.Assign) and _sorts(node.value, set()):
-            names |= {ast.unparse(target) for target in node.targets}
-        elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
-            method = node.value.func
-            if isinstance(method, ast.Attribute) and method.attr == "sort" and not node.value.keywords:
-                names.add(ast.unparse(method.value))
-    pairs = {
-        ast.unparse(node.targets[0])
-        for node in ast.walk(function)
-        if isinstance(node, ast.Assign) and _of_pairs(node.value)
-    }
-    appended = {
-        ast.unparse(node.func.value)
-        for node in ast.walk(function)
-        if isinstance(node, ast.Call)
-        and isinstance(node.func, ast.Attribute)
-        and node.func.attr == "append"
-        and node.args
-        and isinstance(node.args[0], ast.Tuple)
-    }
-    return names - pairs - appended
+        match node:
+            case ast.Assign(targets=[target], value=value) if how := _done(value, {}):
+                yield ast.unparse(target), how
+            case ast.Expr(value=ast.Call(func=ast.Attribute(value=of, attr="sort" | "reverse" as attr))) if _plain(of):
+                yield ast.unparse(of), "sorted" if attr == "sort" else "reversed"
+            case ast.For(body=[ast.If(body=inner)]) if name := _ranges_of(node):
+                for each in inner:
+                    match each:
+                        case ast.Expr(
+                            value=ast.Call(func=ast.Attribute(value=of, attr="append"), args=[ast.Name(id=a)])
+                        ):
+                            if a == name:
+                                yield ast.unparse(of), "filtered"
 
 
-def _sorts(node: ast.AST, names: set[str]) -> bool:
-    """Return whether an expression is a sorted list of plain ranges."""
+def _ranges_of(loop: ast.For) -> str:
+    """Return the name of the single range in a loop over ranges; empty if it is another loop."""
+    return loop.target.id if isinstance(loop.target, ast.Name) and _plain(loop.iter) else ""
+
+
+def _done(node: ast.AST, names: dict[str, str]) -> str:
+    """Return what was done to plain ranges in an expression; empty if nothing, or if it is another expression."""
     if ast.unparse(node) in names:
-        return True
-    if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] not in SORTS - {"reversed"}:
-        return False
-    return bool(node.args) and not node.keywords and _plain(node.args[0])
+        return names[ast.unparse(node)]
+    match node:
+        case ast.Call(args=[given, *_], keywords=[]):
+            name = ast.unparse(node.func).rpartition(".")[2]
+            inner = _done(given, names)
+            if name in COPIES:
+                return inner
+            if name in ("sorted", "sort") and (inner or _plain(given)):
+                return "sorted"
+            if name == "reversed" and (inner or _plain(given)):
+                return "reversed"
+        case ast.ListComp(elt=ast.Name(id=elt), generators=[ast.comprehension(target=ast.Name(id=of)) as loop]):
+            if elt == of and _plain(loop.iter):
+                return "filtered" if loop.ifs else ""
+        case ast.Subscript(value=of, slice=ast.Compare() | ast.Call() | ast.BinOp(op=ast.BitAnd())) if _plain(of):
+            return "filtered" if not isinstance(node.slice, ast.Call) or "isfinite" in ast.unparse(node.slice) else ""
+        case ast.Subscript(value=of, slice=ast.Slice(lower=None, upper=None, step=ast.UnaryOp(op=ast.USub()))):
+            return "reversed" if _plain(of) else ""
+    return ""
 
 
 def _plain(node: ast.AST) -> bool:
-    """Return whether an expression is the ranges of a scan, all or some of them, and nothing beside them."""
-    if isinstance(node, ast.ListComp | ast.GeneratorExp):
-        return isinstance(node.elt, ast.Name) and _plain(node.generators[0].iter)
+    """Return whether an expression is the ranges of a scan, and nothing beside them."""
     if isinstance(node, ast.Call):
-        return ast.unparse(node.func).rpartition(".")[2] in ("list", "array", "asarray") and _plain(node.args[0])
+        return ast.unparse(node.func).rpartition(".")[2] in COPIES and bool(node.args) and _plain(node.args[0])
     return isinstance(node, ast.Attribute | ast.Name) and ast.unparse(node).rpartition(".")[2] == "ranges"
 
 
-def _of_pairs(node: ast.AST) -> bool:
-    """Return whether a value is made of pairs, as by a comprehension, zip() or enumerate()."""
-    inner = node.args[0] if isinstance(node, ast.Call) and node.args else node
-    if isinstance(inner, ast.ListComp | ast.GeneratorExp):
-        return isinstance(inner.elt, ast.Tuple)
-    return isinstance(inner, ast.Call) and ast.unparse(inner.func) in ("zip", "enumerate")
-
-
-def _ranks(function: ast.FunctionDef, names: set[str]) -> Iterator[tuple[str, tuple[int, str]]]:
-    """Yield each name that holds a place in a sorted list, with the line and the expression it comes from."""
+def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[str, tuple[int, str, str]]]:
+    """Yield each name that holds a place in such a list, with the line, the expression and what was done to it."""
     for node in ast.walk(function):
-        if isinstance(node, ast.For | ast.comprehension):
-            call, target = node.iter, node.target
-            enumerates = isinstance(call, ast.Call) and ast.unparse(call.func) == "enumerate" and bool(call.args)
-            if enumerates and isinstance(target, ast.Tuple) and _sorts(call.args[0], names):  # type: ignore[attr-defined]
-                yield ast.unparse(target.elts[0]), (call.lineno, ast.unparse(call))
-        elif isinstance(node, ast.Assign) and isinstance(node.value, ast.Call):
-            found = node.value.func
-            if not isinstance(found, ast.Attribute) or found.attr not in FINDS:
-                continue
-            given = found.value if found.attr == "index" or not node.value.args else node.value.args[0]
-            if _sorts(given, names):
-                yield ast.unparse(node.targets[0]), (node.lineno, ast.unparse(node.value))
+        match node:
+            case (
+                ast.For(iter=call, target=ast.Tuple(elts=[index, *_]))
+                | ast.comprehension(iter=call, target=ast.Tuple(elts=[index, *_]))
+            ):
+                match call:
+                    case ast.Call(func=ast.Name(id="enumerate"), args=[given]) if how := _done(given, names):
+                        yield ast.unparse(index), (call.lineno, ast.unparse(call), how)
+            case ast.Assign(targets=[target], value=ast.Call(func=ast.Attribute(attr=name, value=owner)) as call):
+                given = owner if name == "index" or not call.args else call.args[0]
+                if name in FINDS and (how := _done(given, names)):
+                    yield ast.unparse(target), (node.lineno, ast.unparse(call), how)
 
 
-LOOKS = (ranks_for_rays,)
+LOOKS = (places_for_rays,)
