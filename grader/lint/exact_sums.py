@@ -76,8 +76,8 @@ def _steps(tree: ast.AST, known: dict[str, Number]) -> dict[str, tuple[Number, N
             change = _change(node.op, number(node.value, known))
             added.setdefault(ast.unparse(node.target), set()).add(change)
         elif isinstance(node, ast.For | ast.AnnAssign | ast.NamedExpr):
-            value = node.value if isinstance(node, ast.AnnAssign) else None
-            starts.setdefault(ast.unparse(node.target), set()).add(number(value, known))
+            given = node.value if isinstance(node, ast.AnnAssign) else None
+            starts.setdefault(ast.unparse(node.target), set()).add(number(given, known))
     found: dict[str, tuple[Number, Number]] = {}
     for name, steps in added.items():
         begins = starts.get(name, set())
