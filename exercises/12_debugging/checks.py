@@ -290,4 +290,7 @@ def _why_there(recording, times, away, wanted):
     before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
     said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
+    places = [each for each in recording.facts().get("before_speeds", []) if each["file"] == "driver_node.py"]
+    if places and said.endswith("never holds"):
+        said += ": " + "; ".join(f"line {each['line']}, `{each['code']}`" for each in places)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""
