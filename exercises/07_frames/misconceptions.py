@@ -108,6 +108,11 @@ def of_other_rays(found):
         "those of an angle_increment in degrees: it is in radians already",
         polar(distance, first + found.rays * np.radians(step)),
     )
+    rank = np.array([np.sum(row < away) for row, away in zip(found.rows, distance - CLOSE / 10, strict=True)])
+    words = "in the direction of the first ray: their angle is angle_min, whichever ray is the nearest"
+    if rank.any():
+        words = "those of a rank among sorted ranges: sorting loses the numbers of the rays"
+    yield words, polar(distance, first + rank * step)
     yield "those of the nearest distance, drawn straight ahead of the scanner", polar(distance, 0 * angle)
     valid = [
         np.where((row > low) & (row < high), row, np.nan)

@@ -10,6 +10,7 @@ from gz_course.grader.score.suspects import suspect
 STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
 SETTLED = 7.0  # [s] after the start
 KEPT = 0.08  # [m] within which a distance is kept
+BEHIND = "behind the robot"
 FIRST = 15  # scans in which the robot was too near
 
 
@@ -21,8 +22,11 @@ def explain(run):
         rare_commands,
         in_degrees,
         on_off,
+        counted_from_ray_zero,
         other_side,
         gaps,
+        added,
+        mean_of_the_side,
         signs,
         nearest_anywhere,
         measures,
@@ -119,6 +123,31 @@ def in_degrees(run):
     )
 
 
+def counted_from_ray_zero(run):
+    """Find out whether bearings are counted from ray 0 in scans whose ray 0 looks elsewhere than ahead."""
+    first = run.recording.signal("topics/lidar/scan/angle_min").values
+    if not len(first) or abs(first[0]) < 0.1:
+        return ""
+    said = suspect(run.recording, "bearing")
+    return f"{said}; here, angle_min is {first[0]:.2f}, {BEHIND if abs(first[0]) > 3.0 else 'not 0'}" if said else ""
+
+
+def added(run):
+    """Find out whether each command is added to the one before, and the commands are often at their limit for it."""
+    values = run.recording.signal("topics/cmd_vel/angular/z").values
+    if not len(values) or (np.abs(values) > 1.45).mean() < 0.1:
+        return ""
+    return suspect(run.recording, "added")
+
+
+def mean_of_the_side(run):
+    """Find out whether a mean of ranges is taken for the distance: it is larger, so the robot comes too near."""
+    late = run.times > SETTLED
+    if not late.any() or np.median(run.error[late]) > -0.1:
+        return ""
+    return suspect(run.recording, "mean")
+
+
 def on_off(run):
     values = run.recording.signal("topics/cmd_vel/angular/z").values
     found = np.unique(np.round(values[np.abs(values) > 0.01], 2))
@@ -155,9 +184,10 @@ def old_distance(run):
     usual = float(np.median(run.distance[late]))
     if abs(usual - run.asked[0]) > 0.12:
         return ""
+    why = suspect(run.recording, "parameter") or "the parameter is read only once"
     return (
         f"the robot still keeps {usual:.2f} m, although distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m "
-        f"at {run.changed:g} s: the parameter is read only once"
+        f"at {run.changed:g} s: {why}"
     )
 
 
@@ -176,10 +206,10 @@ def wound_up(run):
     seconds = float(run.step[near & (run.ahead > run.wanted)].sum())
     if seconds < 1.0:
         return ""
-    return (
-        f"for {seconds:.1f} s the robot went on turning towards a wall that was already too near: as with an integral "
-        "that has grown while the robot was far away (wind-up)"
-    )
+    said = f"for {seconds:.1f} s the robot went on turning towards a wall that was already too near"
+    if why := suspect(run.recording, "integral"):
+        return f"{said}: {why}"
+    return f"{said}: what your node takes for the distance is larger than that of the nearest point, or comes late"
 
 
 def saturated(run):
@@ -193,10 +223,8 @@ def saturated(run):
             f"angular.z was at its limit in {share:.0%} of the commands, and jumped from one limit to the other "
             f"{jumps.sum()} times: the gain is far too high for the time between two scans"
         )
-    return (
-        f"angular.z was at its limit in {share:.0%} of the commands: a gain is far too high, or a term grows without "
-        "end, such as an integral (wind-up)"
-    )
+    why = suspect(run.recording, "integral") or "the gain is far too high"
+    return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
 
 
 def swings(run):

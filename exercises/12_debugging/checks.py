@@ -108,8 +108,28 @@ def same_topic(recording, parameters):
         return Finding(right, expected, "so it is" if right else f"nobody takes the distance on {min(sends)}")
     if not sends & takes:
         measured = f"the distance is published on {min(sends)} and taken from {min(takes)}"
-        return Finding(False, expected, measured, explanation=_of_a_node(recording, min(sends), min(takes)))
+        why = _of_a_remapping(recording, min(sends), min(takes)) or _of_a_node(recording, min(sends), min(takes))
+        return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"both use {min(sends & takes)}")
+
+
+def _of_a_remapping(recording, sends, takes):
+    """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
+    ends = _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE)
+    for each in recording.facts().get("remappings", []):
+        space = f"/{each['namespace']}" if each["namespace"] else ""
+        old, new = (name if name.startswith("/") else f"{space}/{name}" for name in (each["from"], each["to"]))
+        for end in ends:
+            used, other = end["topic"], {sends: takes, takes: sends}.get(end["topic"])
+            if other is None or end["node"].rpartition("/")[0] != space:
+                continue
+            place = f"{each['file']}, line {each['line']}"
+            if new == other and old != used:
+                means = "" if each["from"] == old else f", which means {old} in the namespace {space or '/'}"
+                return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
+            if (old, new) == (other, used):
+                return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
+    return ""
 
 
 def _of_a_node(recording, *topics):
@@ -270,4 +290,7 @@ def _why_there(recording, times, away, wanted):
     before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
     said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
+    places = [each for each in recording.facts().get("before_speeds", []) if each["file"] == "driver_node.py"]
+    if places and said.endswith("never holds"):
+        said += ": " + "; ".join(f"line {each['line']}, `{each['code']}`" for each in places)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""

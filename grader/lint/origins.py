@@ -41,6 +41,11 @@ def conditions(content: bytes) -> Places:
     return places_in(content, lambda tree: _conditions(_Program(tree)))
 
 
+def before_speeds(content: bytes) -> Places:
+    """Return `line` and `code` of the conditions that stand before a linear.x is set to what is no constant."""
+    return places_in(content, lambda tree: _before_speeds(_Program(tree)))
+
+
 @dataclass
 class _Program:
     """The functions of a file, and what each statement assigns."""
@@ -219,6 +224,17 @@ def _conditions(program: _Program) -> Places:
                 said = {"line": test.lineno, "code": _short(form.format(code))}
                 places[call.lineno, test.lineno] = said | {"sends": call.lineno, "topic": topics.get(publisher, "")}
     return [places[key] for key in sorted(places)][: 2 * MOST]
+
+
+def _before_speeds(program: _Program) -> Places:
+    found = {}
+    for node in ast.walk(program.tree):
+        if not isinstance(node, ast.Assign) or isinstance(node.value, ast.Constant):
+            continue
+        if any(ast.unparse(target).endswith("linear.x") for target in node.targets):
+            for test, form in _tests(program, node):
+                found[test.lineno] = {"line": test.lineno, "code": _short(form.format(ast.unparse(test)))}
+    return [found[line] for line in sorted(found)][:MOST]
 
 
 def _callers(program: _Program) -> dict[str, list[ast.Call]]:

@@ -14,7 +14,9 @@ from gz_course.grader.lint import (
     action_servers,
     angles,
     callbacks,
+    exact_sums,
     late_binding,
+    mixed_clocks,
     names,
     no_effect,
     not_what_they_seem,
@@ -22,6 +24,7 @@ from gz_course.grader.lint import (
     scan_callbacks,
     searches,
     sequences,
+    sorted_rays,
     time_units,
     transforms,
     unreached,
@@ -244,4 +247,5 @@ ROOMS = (
     LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
+    exact_sums.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
 )  # fmt: skip

@@ -9,7 +9,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint import aliases, bias_use, gyroscopes, headings, known_places, patrols, pictures, rays
+from gz_course.grader.lint import (
+    aliases,
+    bearings,
+    bias_use,
+    feedback,
+    gyroscopes,
+    headings,
+    known_places,
+    patrols,
+    pictures,
+    rays,
+)
 from gz_course.grader.lint.syntax import Places, places_in
 
 LOOKS = (
@@ -21,6 +32,8 @@ LOOKS = (
     *patrols.LOOKS,
     *pictures.LOOKS,
     *aliases.LOOKS,
+    *bearings.LOOKS,
+    *feedback.LOOKS,
 )
 MOST = 12  # suspects kept
 

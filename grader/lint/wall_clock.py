@@ -26,17 +26,17 @@ def wall_clock(content: bytes) -> Places:
 
 
 def _places(tree: ast.Module) -> Places:
-    names = _imported(tree)
+    names = imported(tree)
     found: list[dict[str, Any]] = []
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and (call := _dotted(node.func, names)) in ASKED | WAITED:
+        if isinstance(node, ast.Call) and (call := dotted(node.func, names)) in ASKED | WAITED:
             ros = call == "rclpy.clock.Clock" and any("ROS_TIME" in ast.unparse(each) for each in _arguments(node))
             if not ros:
                 found.append({"line": node.lineno, "call": f"{ast.unparse(node.func)}()", "waits": call in WAITED})
     return sorted(found, key=lambda place: place["line"])[:MOST]
 
 
-def _imported(tree: ast.Module) -> dict[str, str]:
+def imported(tree: ast.Module) -> dict[str, str]:
     """Return the full name of each imported name: `from time import monotonic as now` gives now: time.monotonic."""
     names: dict[str, str] = {}
     for node in ast.walk(tree):
@@ -48,10 +48,10 @@ def _imported(tree: ast.Module) -> dict[str, str]:
     return names
 
 
-def _dotted(node: ast.expr, names: dict[str, str]) -> str:
+def dotted(node: ast.expr, names: dict[str, str]) -> str:
     """Return the full name of what is called; empty if it is not an imported name."""
     if isinstance(node, ast.Attribute):
-        owner = _dotted(node.value, names)
+        owner = dotted(node.value, names)
         return f"{owner}.{node.attr}" if owner else ""
     return names.get(node.id, "") if isinstance(node, ast.Name) else ""
 

@@ -282,9 +282,13 @@ def _too_early(facts: dict[str, Any], topic: str) -> str:
     if not count:
         return ""
     what, pronoun = ("1 message", "it was") if count == 1 else (f"{count} messages", "they were")
+    mine = [each for each in _of(facts, "publisher") if each["topic"] == topic]
+    kept = ""
+    if any(each.get("durability") == "TRANSIENT_LOCAL" for each in mine):
+        kept = " TRANSIENT_LOCAL keeps messages only for listeners that ask for it, too, and few do."
     return (
         f"{what} on {topic} {'was' if count == 1 else 'were'} published before anybody had found the publisher, so "
-        f"{pronoun} lost: others find it while your node waits. Publish from a timer, or wait until "
+        f"{pronoun} lost: others find it while your node waits.{kept} Publish from a timer, or wait until "
         "get_subscription_count() is not 0."
     )
 

@@ -1,6 +1,7 @@
 """What is said about a cart that parks wrongly: the misconception, from the distances and the commands."""
 
 import runpy
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -77,3 +78,27 @@ def test_the_distance_to_the_wall(measured, words):
 def test_the_commands(given, words):
     found = NAMES["of_a_driver"](*given)
     assert words in found and bool(words) == bool(found), found
+
+
+@pytest.mark.parametrize(
+    ("remapping", "words"),
+    [
+        (("sensors", "sensors/wall", "/wall"), "'sensors/wall', which means /sensors/sensors/wall in the namespace"),
+        (("sensors", "/wall_ahead", "/wall"), "the name '/wall_ahead'; the node's topic is /sensors/wall"),
+        (("sensors", "/wall", "wall"), "here, they are exchanged"),
+        (("", "sensors/wall", "/wall"), "here, they are exchanged"),
+        (("", "other", "/wall"), "lives in the namespace /sensors"),
+        (("sensors", "other", "another"), "lives in the namespace /sensors"),
+    ],
+)
+def test_a_remapping_that_joins_nothing(remapping, words):
+    checks = runpy.run_path(str(course_root() / "exercises/12_debugging/checks.py"))
+    each = {"type": "sensor_msgs/msg/Range", "reliability": "RELIABLE", "durability": "VOLATILE"}
+    ends = [
+        each | {"kind": "publisher", "node": "/sensors/ranger", "topic": "/sensors/wall"},
+        each | {"kind": "subscription", "node": "/driver", "topic": "/wall"},
+    ]
+    place = dict(zip(("namespace", "from", "to"), remapping, strict=True))
+    facts = {"endpoints": ends, "remappings": [place | {"file": "bringup.launch.py", "line": 42}]}
+    found = checks["same_topic"](SimpleNamespace(facts=lambda: facts), {})
+    assert not found.passed and words in found.explanation, found.explanation

@@ -13,6 +13,7 @@ from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
 from gz_course.grader.lint.launch_files import launch_places
+from gz_course.grader.lint.origins import before_speeds
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.printable import shown
 
@@ -46,7 +47,11 @@ def _places(submission: Submission) -> dict[str, list[dict[str, Any]]]:
     found: dict[str, list[dict[str, Any]]] = {}
     for name, content in submission.files.items():
         if name.endswith(".py"):
-            places = launch_places(content) if name == submission.main else {"slips": slips(content)}
+            places = (
+                launch_places(content)
+                if name == submission.main
+                else {"slips": slips(content), "before_speeds": before_speeds(content)}
+            )
             for kind, each in places.items():
                 found.setdefault(kind, []).extend({"file": shown(name)} | place for place in each)
     return {kind: places for kind, places in found.items() if places}

@@ -35,6 +35,12 @@ MEAN, COUNT, MINIMUM = "mean", "valid_count", "minimum"  # statistics of a scan
 LENGTHS = (MINIMUM, MEAN)
 MOST = 2  # explanations that are named
 MOST_WRONG = 0.8  # of all answers, where some are right
+SAMPLED = 0.8  # of the steps between answers, that are equal
+# Predictions that fit if a timer answers with the scan that it has, which is an earlier one.
+EARLIER = frozenset({
+    "scan_before", "two_before", "long_before", "smoothed_over_two", "moving_average", "moving_median", "low_pass",
+    "smallest_of_a_few", "largest_of_a_few", "same_again",
+})  # fmt: skip
 
 
 def nearest_ray(row: np.ndarray, low: float, high: float) -> int:
@@ -221,8 +227,19 @@ def explain(asked: Asked) -> Explanation:
         told = "your answers are {}"
         if not causes:
             told, causes = _where_wrong(asked, wrong)
-    both = (said, told) if told.startswith("where") else (told, said)
+    if said and sampled(asked) and {cause.name for cause in causes} <= EARLIER:
+        told, causes = "", []  # what a timer takes up is some scan before that at which it answers
+    both = (said, told) if told.startswith("where") or sampled(asked) else (told, said)
     return Explanation("; ".join(filter(None, both)), tuple(causes))
+
+
+def sampled(asked: Asked) -> bool:
+    """Return whether the answers come at even intervals that are longer than those of the questions."""
+    answered = np.flatnonzero(asked.answered)
+    steps = np.diff(answered)
+    if len(steps) < 2 or np.median(steps) < 2:
+        return False
+    return bool(np.mean(np.abs(steps - np.median(steps)) <= 1) >= SAMPLED)
 
 
 def _differing(asked: Asked) -> bool:

@@ -4,7 +4,7 @@ from textwrap import dedent
 
 import pytest
 
-from gz_course.grader.lint.origins import MOST, conditions, origins
+from gz_course.grader.lint.origins import MOST, before_speeds, conditions, origins
 
 NODE = """
 class Listener(Node):
@@ -89,3 +89,8 @@ def test_nothing_is_found_where_nothing_is_sent(content: bytes) -> None:
 def test_long_code_is_cut() -> None:
     (place,) = origins(b"out.publish(" + b" + ".join([b"value"] * 50) + b")")
     assert place["code"].startswith("out.publish(value + value") and place["code"].endswith("...")
+
+
+def test_what_stands_before_a_speed_is_listed():
+    text = "def f(age, c):\n    if age < 1:\n        c.linear.x = age\n    else:\n        c.linear.x = 0.0\n"
+    assert before_speeds(text.encode()) == [{"line": 2, "code": "if age < 1:"}]

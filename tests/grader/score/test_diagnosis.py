@@ -293,3 +293,11 @@ def test_what_stands_before_a_publish_that_never_ran(told):
     _, sentence = told(signals={}, conditions=conditions)
     assert sentence.endswith("What decides whether publish() on /cmd_vel is reached: line 18, `if self.n == 100:`.")
     assert told(conditions=conditions) == ("graded", "")
+
+
+def test_a_message_that_is_kept_for_late_listeners_is_lost_to_those_that_do_not_ask_for_it(record):
+    facts = BASE | {"too_early": {"/cmd_vel": 1}}
+    for durability, words in (("TRANSIENT_LOCAL", "only for listeners that ask for it"), ("VOLATILE", "")):
+        said = diagnose(record(facts=facts | {"endpoints": [endpoint(durability=durability)]}), LOOKS)
+        assert "1 message on /cmd_vel was published before" in said
+        assert words in said and bool(words) == ("TRANSIENT_LOCAL" in said)

@@ -46,6 +46,8 @@ def test_a_mistake_with_arrays_is_explained(mistake, words):
         ("TypeError: unsupported operand type(s) for -: 'float' and 'Parameter'", "get_parameter('NAME').value"),
         ("TypeError: '<' not supported between instances of 'Parameter' and 'int'", "get_parameter('NAME').value"),
         ("ParameterNotDeclaredException: Invalid access to undeclared parameter(s): side", "declare_parameter('side'"),
+        ("ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']", "from the start"),
+        ("ParameterAlreadyDeclaredException: Parameter(s) already declared: ['side']", "declared once"),
         ("AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'", "those of ROS 1"),
         ("AttributeError: 'ServerGoalHandle' object has no attribute 'waypoints'", "goal_handle.request"),
         ("AttributeError: 'Patrol_Goal' object has no attribute 'request'", "the goal itself"),

@@ -105,6 +105,11 @@ MEANINGS = (
         "declare_parameter('{0}', DEFAULT) must have been called before, in __init__, with the same name",
     ),
     (
+        re.compile(r"ParameterAlreadyDeclaredException.*\buse_sim_time\b"),
+        "every node has the parameter use_sim_time from the start: leave this line out; its value comes from outside, "
+        "such as parameters=[{{'use_sim_time': True}}] in the launch file",
+    ),
+    (
         re.compile(r"ParameterAlreadyDeclaredException"),
         "a parameter is declared once, in __init__; afterwards get_parameter('NAME').value reads it",
     ),

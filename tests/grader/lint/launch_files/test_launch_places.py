@@ -182,3 +182,13 @@ def test_what_follows_a_parameter_of_the_scope(listed, words):
 
 def test_what_is_no_python_has_no_places():
     assert launch_places(b"def (") == {}
+
+
+def test_remappings_are_listed_with_the_namespace_of_their_node():
+    text = (
+        "Node(\n    namespace='/arm', remappings=[('wall', '/wall'), (NAME, 'x')])\nNAME = 'out'\nNode(remappings=3)\n"
+    )
+    assert launch_places(text.encode())["remappings"] == [
+        {"line": 2, "namespace": "arm", "from": "wall", "to": "/wall"},
+        {"line": 2, "namespace": "arm", "from": "out", "to": "x"},
+    ]

@@ -31,6 +31,18 @@ def by_a_timer(scan, kept):
     return min(valid(scan)) if int(kept["n"] * 0.4) != int((kept["n"] - 1) * 0.4) else None
 
 
+def timer_with_the_scan_before(scan, kept):
+    kept["n"] = kept.get("n", -1) + 1
+    last, kept["last"] = kept.get("last"), min(valid(scan))
+    return last if kept["n"] % 4 == 3 else None
+
+
+def test_a_timer_that_answers_with_the_scan_it_has_is_named_alone():
+    assert said_of(timer_with_the_scan_before, "minimum") == (
+        "your node answered one scan in 4 only, once in 0.4 s: publish and log in the callback of each scan"
+    )
+
+
 @pytest.mark.parametrize(
     ("program", "words"),
     [
