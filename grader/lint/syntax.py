@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable, Iterator
 from typing import Any
 
+Place = tuple[int, str]  # line, and the words of a sentence
 Places = list[dict[str, Any]]
 # Nodes of a syntax tree, each counted once for every node above it: what it costs to look into each statement from
 # each of those around it. The longest solution has a third of that.

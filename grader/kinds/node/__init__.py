@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
-from gz_course.grader.lint.message_fields import message_fields
 from gz_course.grader.lint.origins import conditions, origins
-from gz_course.grader.lint.sequences import silent_log
 from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.slips.message_fields import message_fields
+from gz_course.grader.lint.slips.sequences import silent_log
+from gz_course.grader.lint.slips.transforms import lookups, shared_headers
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
-from gz_course.grader.lint.transforms import lookups, shared_headers
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown

@@ -8,11 +8,11 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from gz_course.grader.lint.late_binding import late_bound
 from gz_course.grader.lint.launch_files import actions, commands, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
+from gz_course.grader.lint.slips.late_binding import late_bound
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most

@@ -1,0 +1,62 @@
+"""Mistakes of a first month with Python and rclpy that raise no error, or one that does not name them.
+
+A kind of submission that is Python records these places as facts of a run. The diagnosis names them only if the run
+lost points. Each file has its `LOOKS`: functions of a syntax tree that yield a line and the words of a sentence.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from gz_course.grader.lint.slips import (
+    action_servers,
+    angles,
+    callbacks,
+    everyday,
+    exact_sums,
+    late_binding,
+    mixed_clocks,
+    names,
+    no_effect,
+    not_what_they_seem,
+    parameters,
+    scan_callbacks,
+    searches,
+    sequences,
+    sorted_rays,
+    time_units,
+    transforms,
+    unreached,
+    waiting,
+)
+from gz_course.grader.lint.slips.everyday import LONGEST_PERIOD, periods
+from gz_course.grader.lint.slips.message_fields import unknown_fields
+from gz_course.grader.lint.syntax import Places, places_in
+
+MOST = 3  # places reported at most
+# What is said first of several.
+ROOMS = (
+    everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
+    no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
+    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
+    exact_sums.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
+)  # fmt: skip
+
+
+def slips(
+    content: bytes, duration: float = LONGEST_PERIOD, fields: Mapping[str, list[str]] = MappingProxyType({})
+) -> Places:
+    """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python.
+
+    `duration` [s] is the length of the run, `fields` are those of the messages of the exercise, by class.
+    """
+    return places_in(content, lambda tree: _places(tree, duration, fields))
+
+
+def _places(tree: ast.Module, duration: float, fields: Mapping[str, list[str]]) -> Places:
+    found = [*periods(tree, duration), *unknown_fields(tree, fields)]
+    for room in ROOMS:
+        found += [place for look in room for place in look(tree)]
+    return [{"line": line, "said": said} for line, said in found[:MOST]]

@@ -1,0 +1,117 @@
+"""Mistakes with the callbacks of an action server that raise no error; used by `slips.py`."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Place
+
+# Position of each callback among the arguments; -1 for those that are given by name only.
+PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
+ENDS = ("succeed", "abort", "canceled")
+ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
+
+
+def _callbacks(tree: ast.AST) -> Iterator[tuple[str, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda]]:
+    """Yield the role and the function of each callback that is handed over to an ActionServer."""
+    functions = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] != "ActionServer":
+            continue
+        given = {each.arg: each.value for each in node.keywords if each.arg in PLACES}
+        given |= {role: node.args[i] for role, i in PLACES.items() if 0 <= i < len(node.args)}
+        for role, value in given.items():
+            name = ast.unparse(value).rpartition(".")[2]
+            if isinstance(value, ast.Lambda):
+                yield str(role), value
+            elif name in functions:
+                yield str(role), functions[name]
+
+
+def _returned(function: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> list[ast.expr | None]:
+    if isinstance(function, ast.Lambda):
+        return [function.body]
+    inner = {
+        id(each)
+        for node in ast.walk(function)
+        if isinstance(node, ast.FunctionDef | ast.Lambda) and node is not function
+        for each in ast.walk(node)
+    }
+    return [each.value for each in ast.walk(function) if isinstance(each, ast.Return) and id(each) not in inner]
+
+
+def answers(tree: ast.AST) -> Iterator[Place]:
+    """Find a callback that answers to a goal, or to a wish to cancel, with something else than an answer."""
+    for role, function in _callbacks(tree):
+        if role not in ANSWERS:
+            continue
+        returned, kind = _returned(function), ANSWERS[role]
+        wrong = [each for each in returned if each is None or isinstance(each, ast.Constant | ast.Compare | ast.BoolOp)]
+        if wrong or not returned:
+            what = ast.unparse(wrong[0]) if wrong and wrong[0] is not None else "nothing"
+            yield (
+                wrong[0].lineno if wrong and wrong[0] is not None else function.lineno,
+                f"{role} returns {what[:40]}, which is no answer, so it counts as a refusal: return {kind}.ACCEPT or "
+                f"{kind}.REJECT",
+            )
+
+
+def no_result(tree: ast.AST) -> Iterator[Place]:
+    for role, function in _callbacks(tree):
+        if role == "execute_callback" and all(each is None for each in _returned(function)):
+            yield (
+                function.lineno,
+                "execute returns nothing, and what it returns is the result that the client gets: return the Result of "
+                "the action after goal_handle.succeed()",
+            )
+
+
+def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
+    """Find a loop that waits in execute, in a node with one thread."""
+    names = {ast.unparse(node.func).rpartition(".")[2] for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    if names & {"MultiThreadedExecutor", "Thread", "spin_once", "spin_some", "start_new_thread"} or "spin" not in names:
+        return
+    for role, function in _callbacks(tree):
+        if role != "execute_callback" or isinstance(function, ast.AsyncFunctionDef | ast.Lambda):
+            continue
+        loop = next((each for each in ast.walk(function) if isinstance(each, ast.While)), None)
+        if loop is not None:
+            yield (
+                loop.lineno,
+                "the loop in execute keeps the only thread of the node: neither /odom nor a wish to cancel is heard "
+                "while it runs. Spin with a MultiThreadedExecutor, and callbacks in a ReentrantCallbackGroup",
+            )
+
+
+def never_executed(tree: ast.AST) -> Iterator[Place]:
+    """Find a callback for accepted goals that does not execute them."""
+    for role, function in _callbacks(tree):
+        if role == "handle_accepted_callback" and not re.search(r"\bexecute\b|notify_execute", ast.unparse(function)):
+            yield (
+                function.lineno,
+                "handle_accepted_callback takes over what happens to an accepted goal, and this one never calls "
+                "goal_handle.execute(), so the goal is not executed: leave it out, or call it there",
+            )
+
+
+def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
+    """Find succeed() in execute above its first loop, not below a condition."""
+    for role, function in _callbacks(tree):
+        if role != "execute_callback" or isinstance(function, ast.Lambda):
+            continue
+        loop = next((each for each in function.body if isinstance(each, ast.While | ast.For)), None)
+        for statement in function.body:
+            call = statement.value if isinstance(statement, ast.Expr) else None
+            if loop is None or statement.lineno >= loop.lineno or not isinstance(call, ast.Call):
+                continue
+            name = ast.unparse(call.func)
+            if name.rpartition(".")[2] in ENDS:
+                yield (
+                    statement.lineno,
+                    f"{name}() ends the goal, and it stands above the loop that does the work: move it below",
+                )
+
+
+LOOKS = (answers, no_result, keeps_the_only_thread, never_executed, ends_before_it_drives)

@@ -1,0 +1,77 @@
+"""Angles in the wrong unit or form: degrees for sin and cos, x and y of atan2 exchanged, a quaternion for an angle."""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.lint.constants import named_numbers, number
+from gz_course.grader.lint.syntax import Place
+
+OF_ANGLES = frozenset({"sin", "cos", "tan"})
+IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
+
+
+def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            owner, _, name = ast.unparse(node.func).rpartition(".")
+            if owner in ("", "math", "np", "numpy"):
+                yield node, name
+
+
+def degrees_for_radians(tree: ast.AST) -> Iterator[Place]:
+    """Find sin(90) and sin(degrees(x)), which take radians, and radians(scan.angle_min), which is in radians."""
+    known = named_numbers(tree)
+    for call, name in _calls(tree):
+        if not call.args:
+            continue
+        code, given = ast.unparse(call)[:60], call.args[0]
+        if name in OF_ANGLES:
+            value = number(given, known)
+            inner = ast.unparse(given.func).rpartition(".")[2] if isinstance(given, ast.Call) else ""
+            if inner in ("degrees", "rad2deg") or (isinstance(value, int) and abs(value) > 2 * math.pi):
+                yield call.lineno, f"{code}: {name}() takes radians, not degrees; math.radians() converts them"
+        elif name in ("radians", "deg2rad") and isinstance(given, ast.Attribute) and given.attr in IN_RADIANS:
+            yield call.lineno, f"{code}: {given.attr} of a LaserScan is in radians already"
+
+
+def exchanged_atan2(tree: ast.AST) -> Iterator[Place]:
+    for call, name in _calls(tree):
+        if name not in ("atan2", "arctan2") or len(call.args) != 2:
+            continue
+        first, second = (_axis(each) for each in call.args)
+        if (first, second) == ("x", "y"):
+            yield call.lineno, f"{ast.unparse(call)[:60]}: {name} takes y first and x second"
+
+
+def _axis(node: ast.expr) -> str:
+    """Return x or y if that is what an expression is called, alone or as a difference; else an empty text."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
+        left, right = _axis(node.left), _axis(node.right)
+        return left if left == right else ""
+    if isinstance(node, ast.Name | ast.Attribute):
+        match = re.search(r"(?:^|[._]|d|delta)([xy])$", ast.unparse(node))
+        return match[1] if match else ""
+    return ""
+
+
+def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
+    """Find `yaw = orientation.z`: the z of a quaternion is the sine of half the angle."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute):
+            continue
+        target, value = ast.unparse(node.targets[0]), ast.unparse(node.value)
+        if re.search(r"(?:yaw|heading|theta|angle)$", target) and re.search(
+            r"(?:orientation|rotation|\bq|quat)\.z$", value
+        ):
+            yield (
+                node.lineno,
+                f"{value} is no angle: z of a quaternion is the sine of half of it; the heading of a robot on the "
+                "ground is 2 * math.atan2(q.z, q.w)",
+            )
+
+
+LOOKS = (degrees_for_radians, exchanged_atan2, quaternions_for_angles)

@@ -1,0 +1,53 @@
+"""Fields that a message does not have, in the call that makes it: `String(text="hello")`.
+
+rclpy ignores such a word unless ROS_PYTHON_CHECK_FIELDS=1, and the message stays empty.
+Source: the constructors that rosidl_generator_py writes.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+
+from gz_course.grader.errors import ManifestError
+from gz_course.grader.lint.syntax import Place
+from gz_course.sim.did_you_mean import nearest_name
+
+
+def message_fields(ros_types: Iterable[str]) -> dict[str, list[str]]:
+    """Return the fields of message types and of their parts, by class; a type that is not installed is left out."""
+    from gz_course.grader.run.grader_endpoints import message_class
+
+    found: dict[str, list[str]] = {}
+    waiting = list(ros_types)
+    while waiting:
+        try:
+            message = message_class(waiting.pop())
+        except ManifestError:
+            continue  # reported when the bridge is made
+        fields = message.get_fields_and_field_types()
+        found[message.__name__] = list(fields)
+        for kind in fields.values():
+            package, slash, name = kind.partition("/")
+            if slash and not kind.endswith("]") and not kind.startswith("sequence<") and name not in found:
+                waiting.append(f"{package}/msg/{name}")
+    return found
+
+
+def unknown_fields(tree: ast.AST, fields: Mapping[str, list[str]]) -> Iterator[Place]:
+    own = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef)}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        kind = ast.unparse(node.func).rpartition(".")[2]
+        known = [] if kind in own else fields.get(kind, [])
+        for word in node.keywords if known else ():
+            if word.arg is None or word.arg in known:
+                continue
+            near = nearest_name(word.arg, known) or (known[0] if len(known) == 1 else "")
+            there = f"it is called {near}" if near else f"it has {', '.join(known)}"
+            yield (
+                word.value.lineno,
+                f"a {kind} has no field {word.arg}: {there}; {kind}({word.arg}=...) leaves the message as it is, "
+                "without an error",
+            )

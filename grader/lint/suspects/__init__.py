@@ -1,0 +1,53 @@
+"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays or goals.
+
+Each suspect says what it is about. A check that has seen the symptom in the recording names the suspect of that kind
+(`grader/score/suspects.py`); without a symptom nobody hears of it.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.suspects import (
+    aliases,
+    bearings,
+    bias_use,
+    feedback,
+    gyroscopes,
+    headings,
+    known_places,
+    patrols,
+    pictures,
+    rays,
+)
+from gz_course.grader.lint.syntax import Places, places_in
+
+LOOKS = (
+    *headings.LOOKS,
+    *gyroscopes.LOOKS,
+    *bias_use.LOOKS,
+    *rays.LOOKS,
+    *known_places.LOOKS,
+    *patrols.LOOKS,
+    *pictures.LOOKS,
+    *aliases.LOOKS,
+    *bearings.LOOKS,
+    *feedback.LOOKS,
+)
+MOST = 12  # suspects kept
+
+
+def suspects(content: bytes) -> Places:
+    """Return `line`, `about` and `said`, the words of a sentence, of each suspect; nothing if it is not Python."""
+    return places_in(content, _places)
+
+
+def _places(tree: ast.Module) -> Places:
+    found = list(dict.fromkeys(_all(tree)))
+    return [{"line": line, "about": about, "said": said} for line, about, said in found[:MOST]]
+
+
+def _all(tree: ast.Module) -> Iterator[tuple[int, str, str]]:
+    for look in LOOKS:
+        yield from look(tree)

@@ -1,0 +1,88 @@
+"""Suspects in what reads pictures: the order of their shape and of their indices, another middle than that of columns.
+
+Source: https://numpy.org/doc/stable/reference/generated/numpy.ndarray.shape.html; OpenCV and cv_bridge give pictures
+as (rows, columns, channels).
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.lint.suspects.headings import Suspect, assigned, calls
+
+ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
+DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
+COLUMN = re.compile(r"^(?:column|col|u|cx|middle|centre|center)$")
+ROW = re.compile(r"^(?:row|v|line|cy)$")
+RIGHT = "the shape of a picture is (height, width, channels)"
+
+
+def _arrays(tree: ast.AST) -> set[str]:
+    """Return the names of pictures: what is assigned an array made of a message."""
+    return {ast.unparse(target) for target, value in assigned(tree) if calls(value) & {"imgmsg_to_cv2", "reshape"}}
+
+
+def shapes(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a shape whose first number is taken for the width."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Assign):
+            continue
+        for target in node.targets:
+            value = node.value
+            if isinstance(value, ast.Subscript) and isinstance(value.slice, ast.Slice) and not value.slice.step:
+                value = value.value  # shape[:2]
+            if isinstance(target, ast.Tuple) and len(target.elts) >= 2 and _is_shape(value):
+                first, second = (ast.unparse(each).lower() for each in target.elts[:2])
+                if ACROSS.search(first) and DOWN.search(second):
+                    yield (
+                        node.lineno,
+                        "picture",
+                        f"{ast.unparse(node)[:70]} takes the height for the width: {RIGHT}",
+                    )
+    for target, value in assigned(tree):
+        if isinstance(value, ast.Subscript) and _is_shape(value.value):
+            name, index = ast.unparse(target).lower(), ast.unparse(value.slice)
+            if (index == "0" and ACROSS.search(name)) or (index == "1" and DOWN.search(name)):
+                yield value.lineno, "picture", f"{name} is {ast.unparse(value)}, but {RIGHT}"
+
+
+def _is_shape(value: ast.expr) -> bool:
+    return (
+        isinstance(value, ast.Attribute)
+        and value.attr == "shape"
+        and not re.search(r"\.T\b|transpose|swapaxes", ast.unparse(value))
+    )
+
+
+def indices(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a picture that is asked for [column, row]."""
+    arrays = _arrays(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Subscript) or ast.unparse(node.value) not in arrays:
+            continue
+        if isinstance(node.slice, ast.Tuple) and len(node.slice.elts) >= 2:
+            first, second = (ast.unparse(each).lower() for each in node.slice.elts[:2])
+            if COLUMN.search(first) and ROW.search(second):
+                yield node.lineno, "picture", f"{ast.unparse(node)[:60]}: the row comes first, picture[row, column]"
+
+
+def middles(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the middle of the columns that is made of the rows, or of the wrong numbers of camera_info."""
+    for target, value in assigned(tree):
+        name, text = ast.unparse(target), ast.unparse(value)
+        if not re.search(r"middle|centre|center|\bcx\b|_cx\b", name):
+            continue
+        if re.search(r"\bheight\b.* / 2|\.shape\[0\].* / 2", text) and "width" not in text:
+            yield value.lineno, "picture", f"{name} is made of the height: the middle of the columns is cx = k[2]"
+        found = re.fullmatch(r"\w+\.[kK]\[(\d)\]", text)
+        if found and found[1] in "5" and not re.search("y|row", name):
+            yield (
+                value.lineno,
+                "picture",
+                f"{name} is {text}, the middle row, cy: the middle of the columns is cx = k[2]",
+            )
+
+
+LOOKS = (shapes, indices, middles)

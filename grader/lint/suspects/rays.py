@@ -1,0 +1,41 @@
+"""Suspects in what reads a scan: rays by their number, and ranges that are not looked at before they are compared."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.suspects.headings import Suspect, assigned, last_name
+
+
+def by_number(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a ray, or a slice of rays, that is chosen by a number in the program."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Subscript) or not ast.unparse(node.value).endswith("ranges"):
+            continue
+        numbers = [each for each in ast.walk(node.slice) if isinstance(each, ast.Constant)]
+        names = [each for each in ast.walk(node.slice) if isinstance(each, ast.Name | ast.Attribute | ast.Call)]
+        if numbers and not names:
+            yield (
+                node.lineno,
+                "ray",
+                f"{ast.unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
+                "[rad], and 0 is ahead only if angle_min is 0",
+            )
+
+
+def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
+    whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".ranges")}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and last_name(node) == "min" and len(node.args) == 1:
+            text = ast.unparse(node.args[0])
+            if (text.endswith(".ranges") or text in whole) and not node.keywords:
+                yield (
+                    node.lineno,
+                    "ray",
+                    f"{ast.unparse(node)[:60]} is the nearest in any direction, and of ranges that are none: choose "
+                    "the rays by their bearing, and those between range_min and range_max",
+                )
+
+
+LOOKS = (by_number, smallest_of_all)

@@ -1,0 +1,75 @@
+"""Misuse of tf2: what a file asks for, and the ways in which it can never get it."""
+
+import pytest
+
+from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.slips.transforms import lookups, shared_headers
+
+NODE = """\
+class Hit(Node):
+    def __init__(self):
+        super().__init__("hit")
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.create_subscription(LaserScan, "/scan", self.on_scan, 10)
+        self.waiting = []
+
+    def on_scan(self, scan):
+{body}
+"""
+ASK = "self.buffer.lookup_transform('odom', scan.header.frame_id, Time.from_msg(scan.header.stamp))"
+
+
+def node(*lines):
+    return NODE.format(body="\n".join(f"        {line}" for line in lines))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (node("self.buffer = Buffer()", f"t = {ASK}"), "makes a new Buffer each time"),
+        (
+            node(f"t = {ASK}").replace("        self.listener = TransformListener(self.buffer, self)\n", ""),
+            "nothing fills",
+        ),
+        (node("while not self.buffer.can_transform('odom', 'x', Time()):", "    pass"), "it never ends"),
+        (
+            node("while True:", "    try:", f"        t = {ASK}", "        break", "    except E:", "        pass"),
+            "never ends",
+        ),
+        (node("rclpy.spin_once(self)", f"t = {ASK}"), "cannot be spun again"),
+        (
+            node("now = self.get_clock().now()", "t = self.buffer.lookup_transform('odom', 'x', now)"),
+            "this very moment",
+        ),
+    ],
+)
+def test_what_can_never_work_is_a_slip(text, words):
+    assert any(words in place["said"] for place in slips(text.encode()))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        [f"t = {ASK}"],
+        ["if self.buffer is None:", "    self.buffer = Buffer()", f"t = {ASK}"],
+        ["for scan in self.waiting:", "    if self.buffer.can_transform('odom', 'x', Time()):", f"        t = {ASK}"],
+    ],
+)
+def test_what_may_work_is_none(lines):
+    assert slips(node(*lines).encode()) == []
+
+
+def test_frames_that_are_written_down_and_scans_that_are_given_up():
+    assert lookups(node(f"t = {ASK}").encode()) == [{"line": 10, "frames": ["odom"], "gives_up": True}]
+    assert not lookups(node("self.waiting.append(scan)", f"t = {ASK}").encode())[0]["gives_up"]
+    assert not lookups(node("t = self.buffer.lookup_transform('odom', 'x', Time())").encode())[0]["gives_up"]
+    text = node("frame = 'map'", "p = self.buffer.transform(point, frame)")
+    assert lookups(text.encode()) == [{"line": 11, "frames": ["map"], "gives_up": True}]
+    assert lookups(b"x = (") == []
+
+
+def test_a_header_of_two_messages_is_found():
+    lines = ["hit.header = scan.header", "hit.header.frame_id = 'odom'"]
+    assert shared_headers(node(*lines).encode()) == [{"line": 11}]
+    assert shared_headers(node(lines[1]).encode()) == shared_headers(node(lines[0]).encode()) == []
