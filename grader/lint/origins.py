@@ -249,7 +249,7 @@ def _callers(program: _Program) -> dict[str, list[ast.Call]]:
 
 def _topics(program: _Program) -> dict[str, str]:
     """Return the topic of each publisher that is made with a constant name."""
-    found = {}
+    found: dict[str, str] = {}
     for node in ast.walk(program.tree):
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and len(node.value.args) >= 2:
             topic = node.value.args[1]

@@ -213,19 +213,19 @@ def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
         for node, _, value in _sums(function):
             yield from _part_of_time(node.lineno, ast.unparse(expanded(value, values)))
     whole = ast.unparse(tree)
-    for function in ast.walk(tree):
-        if not isinstance(function, ast.FunctionDef) or len(re.findall(rf"\b{function.name}\(", whole)) < 2:
+    for other in ast.walk(tree):
+        if not isinstance(other, ast.FunctionDef) or len(re.findall(rf"\b{other.name}\(", whole)) < 2:
             continue
-        for node in ast.walk(function):
+        for each in ast.walk(other):
             if (
-                isinstance(node, ast.Return)
-                and node.value is not None
+                isinstance(each, ast.Return)
+                and each.value is not None
                 and not re.search(
-                    rf"\.(?:sec|nanosec)\b.*\b{function.name}\(|\b{function.name}\(.*\.(?:sec|nanosec)\b",
-                    whole.replace(ast.unparse(function), ""),
+                    rf"\.(?:sec|nanosec)\b.*\b{other.name}\(|\b{other.name}\(.*\.(?:sec|nanosec)\b",
+                    whole.replace(ast.unparse(other), ""),
                 )
             ):
-                yield from _part_of_time(node.lineno, ast.unparse(expanded(node.value, assigned_once(function))))
+                yield from _part_of_time(each.lineno, ast.unparse(expanded(each.value, assigned_once(other))))
 
 
 def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
@@ -329,8 +329,9 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
     for function in reads_rates(tree):
         values = assigned_once(function)
         for node in ast.walk(function):
-            adds = isinstance(node, ast.Call) and last_name(node) in ("append", "appendleft") and bool(node.args)
-            if adds and "angular_velocity" in ast.unparse(expanded(node.args[0], values)):
+            if not isinstance(node, ast.Call) or last_name(node) not in ("append", "appendleft") or not node.args:
+                continue
+            if "angular_velocity" in ast.unparse(expanded(node.args[0], values)):
                 yield ast.unparse(node.func).rpartition(".")[0]
 
 
