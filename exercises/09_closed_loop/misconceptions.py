@@ -29,6 +29,7 @@ def explain(run):
         mean_of_the_side,
         signs,
         nearest_anywhere,
+        integrated,
         measures,
         counted_turns,
         stopped,
@@ -225,6 +226,11 @@ def saturated(run):
         )
     why = suspect(run.recording, "integral") or "the gain is far too high"
     return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
+
+
+def integrated(run):
+    """Find out whether commands are at their limit in a node that adds up errors without end."""
+    return saturated(run) if suspect(run.recording, "integral") else ""
 
 
 def swings(run):
