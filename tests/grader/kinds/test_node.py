@@ -9,14 +9,20 @@ from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.submission.intake import take_in
 
 
+def suspicious(facts):
+    """Return the facts without those that every file has: where it makes what it sends, and its conditions."""
+    assert "origins" in facts
+    return {name: places for name, places in facts.items() if name not in ("origins", "conditions")}
+
+
 def test_suspicious_places_of_the_file_become_facts(root, tmp_path):
     exercise = find_exercise("03_teleop", root)
     text = (root / "solutions" / "03_teleop" / exercise.file).read_text()
     node = tmp_path / exercise.file
     node.write_text(text)
-    assert plan(exercise, take_in(exercise, node)).facts == {}
+    assert suspicious(plan(exercise, take_in(exercise, node)).facts) == {}
     node.write_text(f"import time\ntime.sleep(1)\ncommand.linear.x = 1\n{text}")
-    assert plan(exercise, take_in(exercise, node)).facts == {
+    assert suspicious(plan(exercise, take_in(exercise, node)).facts) == {
         "wall_clock": [{"file": exercise.file, "line": 2, "call": "time.sleep()", "waits": True}],
         "whole_numbers": [{"file": exercise.file, "line": 3, "field": "command.linear.x", "value": "1"}],
     }
