@@ -33,6 +33,10 @@ NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(r"Couldn't parse params file: '--params-file \S*?([\w.-]*bridge[\w.-]*)'"),
+        "{0} is the bridge's own file and no file of ROS parameters: it is the value of the parameter config_file",
+    ),
+    (
         re.compile(
             r"Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'"
         ),

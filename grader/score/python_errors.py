@@ -221,6 +221,13 @@ MEANINGS = (
         "names consist of letters, digits and _, topics also of /; there are no spaces or hyphens in them",
     ),
     (
+        re.compile(
+            r"UnboundLocalError: .*variable '(min|max|sum|len|abs|round|list|range|sorted|float|int|str|any|all)'"
+        ),
+        "the function assigns to {0}, so {0} is its own variable everywhere in it, and Python's {0}() is hidden: call "
+        "the variable something else",
+    ),
+    (
         re.compile(r"UnboundLocalError: .*variable '(\w+)'"),
         "a function that assigns to {0} has a {0} of its own; what is to last is kept as self.{0}",
     ),

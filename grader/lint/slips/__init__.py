@@ -26,6 +26,7 @@ from gz_course.grader.lint.slips import (
     searches,
     sequences,
     sorted_rays,
+    starts,
     time_units,
     transforms,
     unreached,
@@ -41,7 +42,7 @@ ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
-    exact_sums.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
+    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
 )  # fmt: skip
 
 

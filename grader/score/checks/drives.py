@@ -131,7 +131,7 @@ def _stuck(
             "its wheels did not turn: no plugin drives them, or the plugin listens to another topic or drives joints "
             "of other names"
         )
-    more = why or "they turn about the wrong axis, or hang in the air"
+    more = why or (driving.slippery(body) if body else "") or "they turn about the wrong axis, or hang in the air"
     return f"its wheels turned, but did not roll along the ground: {more}"
 
 

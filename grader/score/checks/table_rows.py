@@ -27,7 +27,10 @@ def table_rows(recording: Recording, parameters: Table) -> Finding:
     for row in rows:
         topic, where = row["ros_topic"], f"line {row['line']}"
         if not topic:
-            return Finding(False, expected, f"{where}: this row has no ros_topic")
+            single = (
+                "" if len(row) > 1 else ", and one column only: a dash begins a row, so only its first line has one"
+            )
+            return Finding(False, expected, f"{where}: this row has no ros_topic{single}")
         if topic in wanted and named[topic] == 1:
             continue
         return Finding(False, expected, f"{where}: {_why(topic, named[topic], wanted, facts)}")

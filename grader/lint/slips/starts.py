@@ -1,0 +1,56 @@
+"""A time that is measured since the last call, because its start is set anew each time."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Place
+
+LONG = 1.0  # [s] or more is no time between two calls
+
+
+def set_anew(tree: ast.AST) -> Iterator[Place]:
+    """Find `now - self.start` that is compared with seconds, where each call also sets `self.start = now`."""
+    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+        always = {
+            ast.unparse(statement.targets[0]): statement
+            for statement in function.body
+            if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Attribute)
+        }
+        since: dict[str, str] = {}  # name of a difference -> its start
+        for node in ast.walk(function):
+            if isinstance(node, ast.Assign) and (start := _start(node.value, always)):
+                since[ast.unparse(node.targets[0])] = start
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Compare) or not _is_long(node.comparators[0]):
+                continue
+            start = _start(node.left, always) or since.get(ast.unparse(node.left), "")
+            if start:
+                line = always[start].lineno
+                yield (
+                    line,
+                    f"{start} is set anew in every call of {function.name}, so line {node.lineno} compares the time "
+                    "since the last call: what is measured from the start is set once",
+                )
+
+
+def _start(value: ast.expr, always: dict[str, ast.Assign]) -> str:
+    """Return the start of which a time is the difference, if each call sets it to the same end."""
+    for node in ast.walk(value):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
+            start, end = ast.unparse(node.right), ast.unparse(node.left)
+            if start in always and ast.unparse(always[start].value) == end:
+                return start
+    return ""
+
+
+def _is_long(value: ast.expr) -> bool:
+    """Return whether an expression is a number, or a Duration, of a second or more."""
+    numbers = [
+        each.value for each in ast.walk(value) if isinstance(each, ast.Constant) and isinstance(each.value, int | float)
+    ]
+    return any(number >= LONG for number in numbers)
+
+
+LOOKS = (set_anew,)
