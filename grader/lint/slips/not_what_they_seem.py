@@ -162,6 +162,26 @@ def python_logging(tree: ast.AST) -> Iterator[Place]:
             return
 
 
+def zero_is_false(tree: ast.AST) -> Iterator[Place]:
+    """Find `if not self.x:` where self.x begins as None and is later set to 0: it asks for None and for 0 alike."""
+    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+        given: dict[str, list[object]] = {}
+        for node in ast.walk(owner):
+            if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant):
+                given.setdefault(ast.unparse(node.targets[0]), []).append(node.value.value)
+        for node in ast.walk(owner):
+            if isinstance(node, ast.If) and isinstance(node.test, ast.UnaryOp) and isinstance(node.test.op, ast.Not):
+                name = ast.unparse(node.test.operand)
+                values = given.get(name, [])
+                zero = next((v for v in values if type(v) in (int, float) and v == 0), None)
+                if None in values and zero is not None:
+                    yield (
+                        node.test.lineno,
+                        f"not {name} holds for {zero}, too, not only for None: {zero} counts as false; ask "
+                        f"{name} is None",
+                    )
+
+
 LOOKS = (
-    used_up, same_object, identity, repeated_rows, whole_seconds_of_a_stamp, python_logging,
+    used_up, same_object, identity, repeated_rows, whole_seconds_of_a_stamp, python_logging, zero_is_false,
 )  # fmt: skip

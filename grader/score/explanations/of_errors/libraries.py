@@ -10,6 +10,11 @@ import re
 
 # Pattern of an error -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = (
+    (
+        re.compile(r"AttributeError: 'Subscription' object has no attribute 'registerCallback'"),
+        "a synchronizer takes subscriptions of message_filters, message_filters.Subscriber(self, TYPE, '/topic'), and "
+        "not those of create_subscription",
+    ),
     # arrays
     (
         re.compile(r"ValueError: The truth value of an array with more than one element is ambiguous"),

@@ -34,8 +34,16 @@ def test_a_right_file_has_no_slip():
 
 
 def test_a_start_that_each_call_sets_anew_is_named():
-    lines = "passed = now - self.start\n        self.start = now\n        if passed < Duration(seconds=5):\n            pass"
+    lines = "passed = now - self.start\n        self.start = now\n        if passed < Duration(seconds=5): pass"
     assert any("self.start is set anew in every call of tick" in each for each in said(lines))
+
+
+def test_zero_is_told_apart_from_none_only_by_is_none():
+    init = "def __init__(self):\n        self.heading = None\n        self.count = 0\n\n    def on_imu(self, imu):\n"
+    text = f"class A(Node):\n    {init}        if not self.heading:\n            self.heading = 0.0\n"
+    assert any("0.0 counts as false" in place["said"] for place in slips(text.encode(), duration=8.0))
+    right = text.replace("not self.heading", "self.heading is None")
+    assert not any("counts as false" in place["said"] for place in slips(right.encode(), duration=8.0))
 
 
 def test_steps_of_time_are_no_starts():
