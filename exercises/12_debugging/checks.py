@@ -179,7 +179,8 @@ def lidar_frame(recording, parameters):
 
 
 def all_alive(recording, parameters):
-    expected = "no process of the launch ends before Ctrl-C, and every one ends with it"
+    # How a process ends after Ctrl-C is not asked: rclpy can lose a SIGINT, and the launch then sends SIGTERM.
+    expected = "no process of the launch ends before Ctrl-C"
     facts = launch_facts(recording)
     ended = facts.get("ended_early", [])
     if dead := list(deaths(recording)):
@@ -191,10 +192,6 @@ def all_alive(recording, parameters):
         return Finding(False, expected, "no node publishes /cmd_vel: the driver never ran")
     if not _ends(recording, "subscription", LASER_SCAN):
         return Finding(False, expected, "no node takes scans: the ranger never ran")
-    if deaf := facts.get("escalated", []) + facts.get("left", []):
-        return Finding(False, expected, f"{', '.join(deaf)} did not end with Ctrl-C")
-    if not facts.get("ended_itself", True):
-        return Finding(False, expected, "the launch did not end with Ctrl-C: one of its programs ignores it")
     if not recording.facts().get("sim_seconds") and not any(each.ros_topic == "/clock" for each in bridges(recording)):
         measured = "there is neither simulated time nor /clock: that the programs wait for them shows nothing yet"
         return Finding(False, expected, measured, gated=True)
