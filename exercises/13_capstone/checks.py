@@ -90,27 +90,12 @@ def layout(recording, parameters):
         "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
         f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
         f"info.resolution is {size:g}, it is in metres": abs(size - RESOLUTION) < 1e-4,
-        f"info.origin is ({x:g}, {y:g}), {other_origin(x, y)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
+        f"info.origin is ({x:g}, {y:g}), {DRIVING.other_origin(x, y, GRID)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
         "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
         f"data has {number} numbers": number == WIDTH * HEIGHT,
     }
     wrong = [words for words, holds in right.items() if not holds]
     return Finding(not wrong, expected, seen, explanation="; ".join(wrong))
-
-
-def other_origin(x, y):
-    """Return what an origin [m] is instead of the corner of the first cell."""
-    right = "the corner of the first cell is at (-5, -4)"
-    for (other_x, other_y), words in (
-        ((LEFT / RESOLUTION, BOTTOM / RESOLUTION), "which is in cells; in metres "),
-        ((0.0, 0.0), "so it is not set, or the corner is taken for the middle; "),
-        ((-LEFT, -BOTTOM), "which is the opposite corner; "),
-        ((BOTTOM, LEFT), "x and y are exchanged; "),
-        ((LEFT + RESOLUTION / 2, BOTTOM + RESOLUTION / 2), "which is the middle of the first cell; "),
-    ):
-        if hypot(x - other_x, y - other_y) < 1e-3:
-            return words + right
-    return right
 
 
 def walls(recording, parameters):
@@ -127,8 +112,9 @@ def walls(recording, parameters):
     measured = f"{share:.0%} of {wanted.sum()} cells with hits are occupied"
     if share >= WALLS:
         return Finding(True, expected, measured)
-    words = why(recording, said, scan) or DRIVING.unclear(said, wanted)
-    words = words or DRIVING.walls_missing(said, wanted, earlier_walls(recording))
+    words = why(recording, said, scan) or behind_hits(recording, said, scans(recording, at))
+    if not (words or layout(recording, parameters).explanation or known_before(recording)):
+        words = DRIVING.unclear(said, wanted) or DRIVING.walls_missing(said, wanted, earlier_walls(recording))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
@@ -193,7 +179,7 @@ def free(recording, parameters):
     before, every = scans(recording, at - LATE), scans(recording, at)
     hit = cells(hits(every)) > 0
     passed = (along(before, 0, before.ends - 2 * RESOLUTION, before.hit) >= HITS) & ~hit
-    seen = grown(along(every, 0, every.ends, np.ones_like(every.hit)) > 0)
+    seen = ever_seen(every)
     if passed.sum() < FEWEST:
         return Finding(False, expected, "the scanner saw nothing before the last map came")
     share, other = float(marked[passed].mean()), float((~seen)[marked].mean()) if marked.any() else 0.0
@@ -209,15 +195,27 @@ def free(recording, parameters):
     elif not (said < 0).any():
         words = "no cell is unknown: what no ray has passed yet is -1, not 0"
     elif other > NEVER_SEEN and walls_are_right(recording, said):
-        behind = grown(along(every, every.ends, every.ends + 2, every.hit) > 0)
-        if behind[marked & ~seen].mean() >= FITS:
-            words = "cells behind the hits are free: a ray says nothing about what is behind its hit"
+        words = behind_hits(recording, said, every)
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
         words = DRIVING.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
         words = DRIVING.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def ever_seen(every):
+    """Return the cells, to one cell, that any ray has passed or hit."""
+    return grown(along(every, 0, every.ends, np.ones_like(every.hit)) > 0)
+
+
+def behind_hits(recording, said, every):
+    """Return that cells behind the hits are free, if most of the free cells that were never seen are there."""
+    unseen = (said >= 0) & (said <= FREE) & ~ever_seen(every)
+    behind = grown(along(every, every.ends, every.ends + 2, every.hit) > 0)
+    if unseen.sum() < FEWEST or not walls_are_right(recording, said) or behind[unseen].mean() < FITS:
+        return ""
+    return "cells behind the hits are free: a ray says nothing about what is behind its hit"
 
 
 def walls_are_right(recording, said):

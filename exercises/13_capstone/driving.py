@@ -11,6 +11,22 @@ TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
 
 
+def other_origin(x, y, grid):
+    """Return what an origin [m] is instead of the corner of the first cell of a grid."""
+    left, bottom, half = grid.left, grid.bottom, grid.resolution / 2
+    right = f"the corner of the first cell is at ({left:g}, {bottom:g})"
+    for (other_x, other_y), words in (
+        ((left / grid.resolution, bottom / grid.resolution), "which is in cells; in metres "),
+        ((0.0, 0.0), "so it is not set, or the corner is taken for the middle; "),
+        ((-left, -bottom), "which is the opposite corner; "),
+        ((bottom, left), "x and y are exchanged; "),
+        ((left + half, bottom + half), "which is the middle of the first cell; "),
+    ):
+        if np.hypot(x - other_x, y - other_y) < 1e-3:
+            return words + right
+    return right
+
+
 def commands(recording):
     """Return the commanded speeds [m/s] and turning rates [rad/s]."""
     return tuple(recording.signal(f"topics/cmd_vel/{name}").values for name in ("linear/x", "angular/z"))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gz_course.grader.record.reading import Signal
-from gz_course.grader.score.floor import Shapes
+from gz_course.grader.score.floor import Grid, Shapes
 
 FOLDER = Path(__file__).parents[2] / "exercises/13_capstone"
 DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
@@ -113,3 +113,18 @@ def test_walls_that_are_widened():
     said[:] = -1
     said[hit] = 100
     assert DRIVING.thick(recording(), said, hit) == ""
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "words"),
+    [
+        (-50, -40, "which is in cells; in metres the corner"),
+        (0, 0, "it is not set"),
+        (5, 4, "the opposite corner"),
+        (-4, -5, "x and y are exchanged"),
+        (-4.95, -3.95, "the middle of the first cell"),
+        (1, 1, "the corner of the first cell is at (-5, -4)"),
+    ],
+)
+def test_an_origin_that_is_something_else(x, y, words):
+    assert words in DRIVING.other_origin(x, y, Grid(0.1, 100, 80, -5.0, -4.0))
