@@ -7,10 +7,46 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 Place = tuple[int, str]  # line, and the words of a sentence
+Suspect = tuple[int, str, str]  # line, what it is about, and the words of a sentence
 Places = list[dict[str, Any]]
 # Nodes of a syntax tree, each counted once for every node above it: what it costs to look into each statement from
 # each of those around it. The longest solution has a third of that.
 MOST_WORK = 30_000
+
+
+def functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
+    return (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+
+
+def last_name(node: ast.AST) -> str:
+    """Return the last part of a name, such as `Node` of `launch_ros.actions.Node`; empty if it is no name."""
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
+    """Yield every call with the last part of the name that is called: `cos` of `math.cos(x)`."""
+    return ((node, last_name(node.func)) for node in ast.walk(tree) if isinstance(node, ast.Call))
+
+
+def called(tree: ast.AST) -> set[str]:
+    """Return the last parts of the names of all that is called."""
+    return {name for _, name in calls(tree)}
+
+
+def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield every target of an assignment with its value; the parts of tuples one by one."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
+            yield node.target, node.value
+        if not isinstance(node, ast.Assign):
+            continue
+        for target in node.targets:
+            if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
+                yield from zip(target.elts, node.value.elts, strict=False)
+            else:
+                yield target, node.value
 
 
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:

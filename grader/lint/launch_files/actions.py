@@ -8,7 +8,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, last_name, text
+from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, text
+from gz_course.grader.lint.syntax import last_name
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
 MAIN = "generate_launch_description"

@@ -10,7 +10,8 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, last_name, text
+from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
+from gz_course.grader.lint.syntax import last_name
 
 SIM_TIME = "use_sim_time"
 OPTION = re.compile(r"--?[a-zA-Z]")

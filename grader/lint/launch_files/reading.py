@@ -6,19 +6,14 @@ import ast
 from collections.abc import Iterator
 from functools import cached_property
 
+from gz_course.grader.lint.syntax import last_name
+
 Place = tuple[int, str]
 PROCESSES = frozenset({"Node", "LifecycleNode", "ExecuteProcess", "ExecuteLocal", "IncludeLaunchDescription"})
 ACTIONS = PROCESSES | {
     "ComposableNodeContainer", "DeclareLaunchArgument", "GroupAction", "OpaqueFunction", "RegisterEventHandler",
     "SetEnvironmentVariable", "SetLaunchConfiguration", "SetParameter", "SetUseSimTime", "TimerAction",
 }  # fmt: skip
-
-
-def last_name(node: ast.AST) -> str:
-    """Return the last part of a name, such as `Node` of `launch_ros.actions.Node`; empty if it is no name."""
-    if isinstance(node, ast.Attribute):
-        return node.attr
-    return node.id if isinstance(node, ast.Name) else ""
 
 
 def argument(call: ast.Call, name: str, position: int | None = None) -> ast.expr | None:

@@ -12,7 +12,8 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, last_name, text
+from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
+from gz_course.grader.lint.syntax import last_name
 
 TRUTHS = frozenset({"True", "False"})
 EQUALS = frozenset({"EqualsSubstitution", "NotEqualsSubstitution", "LaunchConfigurationEquals"})

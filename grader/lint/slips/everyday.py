@@ -7,19 +7,12 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.callbacks import handed_over
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, calls
 
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
-
-
-def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    """Yield every call with the last part of the name that is called."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call):
-            yield node, ast.unparse(node.func).rpartition(".")[2]
 
 
 def constructors(tree: ast.AST) -> Iterator[Place]:
@@ -40,7 +33,7 @@ def main_not_called(tree: ast.Module) -> Iterator[Place]:
     if main is None:
         return
     outside = [node for node in tree.body if node is not main]
-    if not any(name == "main" for part in outside for _, name in _calls(part)):
+    if not any(name == "main" for part in outside for _, name in calls(part)):
         yield (
             main.lineno,
             "main() is defined, but nothing calls it: the file ends with  if __name__ == '__main__': main()",
@@ -59,7 +52,7 @@ def not_called(tree: ast.AST) -> Iterator[Place]:
 def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
     """Find a timer whose period [s] is longer than `longest`, or 0 because whole numbers were divided."""
     known = named_numbers(tree)
-    for call, name in _calls(tree):
+    for call, name in calls(tree):
         given = (
             call.args[0] if call.args else next((k.value for k in call.keywords if k.arg == "timer_period_sec"), None)
         )
@@ -122,7 +115,7 @@ def sets_for_numbers(tree: ast.AST) -> Iterator[Place]:
 
 def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
     """Find a text with `{name}` in it that lacks the f before its quotes, where it is logged or published."""
-    for call, name in _calls(tree):
+    for call, name in calls(tree):
         if name not in ("info", "warn", "warning", "error", "String"):
             continue
         for value in [*call.args, *(each.value for each in call.keywords)]:
@@ -161,11 +154,11 @@ def blocking(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.FunctionDef) or node.name not in handed:
             continue
-        rates = [call for call, name in _calls(node) if name == "create_rate"]
+        rates = [call for call, name in calls(node) if name == "create_rate"]
         for inner in ast.walk(node):
             if not isinstance(inner, ast.While):
                 continue
-            names = {name for _, name in _calls(inner)}
+            names = {name for _, name in calls(inner)}
             if names & {"spin_once", "spin_some"}:
                 continue
             if rates or "sleep" in names or not names - {"ok", "now", "get_clock", "publish", "info"}:
@@ -180,11 +173,11 @@ def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
     """Find a lookup with a timeout in a node with a single thread: no transform is heard while it waits."""
     threads = any(
         name in ("MultiThreadedExecutor", "Thread") or "spin_thread" in [each.arg for each in call.keywords]
-        for call, name in _calls(tree)
+        for call, name in calls(tree)
     )
     if threads:
         return
-    for call, name in _calls(tree):
+    for call, name in calls(tree):
         given = [*call.args[TRANSFORM.get(name, 0) :], *(each for each in call.keywords if each.arg == "timeout")]
         if name in TRANSFORM and given:
             yield (

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.slips.unreached import blocks, called
-from gz_course.grader.lint.syntax import Place, assignments
+from gz_course.grader.lint.slips.unreached import blocks
+from gz_course.grader.lint.syntax import Place, assignments, called, functions
 
 FUNCTIONS = frozenset({"rclpy.ok", "math.isfinite", "math.isnan", "math.isinf", "isfinite", "isnan", "isinf"})
 MESSAGES = frozenset({
@@ -75,7 +75,7 @@ def _makes(statement: ast.stmt, name: str) -> bool:
 
 def never_sent(tree: ast.AST) -> Iterator[Place]:
     """Find a message that a function makes and at most fills, and hands to nobody."""
-    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+    for function in functions(tree):
         loads = [n for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
         bases = {
             id(inner)
@@ -130,7 +130,7 @@ def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
 
 def first_round(tree: ast.AST) -> Iterator[Place]:
     """Find a return at the end of the body of a loop that collects something: it ends the loop in its first round."""
-    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+    for function in functions(tree):
         for node in ast.walk(function):
             if not isinstance(node, ast.For) or not isinstance(node.body[-1], ast.Return):
                 continue

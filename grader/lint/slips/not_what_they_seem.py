@@ -7,20 +7,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, functions
 
 ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
 WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
 SILENT = frozenset({"debug", "info"})
 
 
-def _functions(tree: ast.AST) -> list[ast.FunctionDef]:
-    return [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
-
-
 def used_up(tree: ast.AST) -> Iterator[Place]:
     """Find a generator that is gone through twice: the second time it is empty."""
-    for function in _functions(tree):
+    for function in functions(tree):
         for node in ast.walk(function):
             target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
             if not isinstance(target, ast.Name) or not isinstance(node, ast.Assign) or not _once(node.value):
@@ -59,7 +55,7 @@ def _goes_through(node: ast.AST, name: str) -> int:
 
 def same_object(tree: ast.AST) -> Iterator[Place]:
     """Find `hit.header = scan.header` and then `hit.header.frame_id = ...`, which changes the scan too."""
-    for function in _functions(tree):
+    for function in functions(tree):
         for node in ast.walk(function):
             if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
                 continue

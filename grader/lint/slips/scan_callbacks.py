@@ -5,8 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.slips.sequences import functions
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, calls, functions
 
 LONG = 0.05  # [s] of sleep; data come 10 times a second and faster
 ASKS_FOR_INVALID = ("isinf", "isnan", "isfinite", "range_max", "range_min", "inf", "nan")
@@ -15,7 +14,7 @@ ASKS_FOR_INVALID = ("isinf", "isnan", "isfinite", "range_max", "range_min", "inf
 def callbacks(tree: ast.AST, methods: tuple[str, ...] = ("create_timer", "create_subscription")) -> set[str]:
     """Return the names of functions that are handed over to timers and subscriptions."""
     found = set()
-    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call)):
+    for call, _ in calls(tree):
         method = ast.unparse(call.func).rpartition(".")[2]
         place = {"create_timer": 1, "create_subscription": 2}.get(method) if method in methods else None
         given = call.args[place] if place is not None and len(call.args) > place else None
@@ -29,7 +28,7 @@ def sleeping(tree: ast.AST) -> Iterator[Place]:
     """Find a callback of a subscription that sleeps."""
     handed = callbacks(tree, ("create_subscription",))
     for function in (each for each in functions(tree) if each.name in handed):
-        for call in (node for node in ast.walk(function) if isinstance(node, ast.Call)):
+        for call, _ in calls(function):
             value = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else None
             if ast.unparse(call.func) in ("time.sleep", "sleep") and isinstance(value, int | float) and value >= LONG:
                 yield (
@@ -88,7 +87,7 @@ def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
                 continue
             if any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop)):
                 continue
-            for call in (node for node in ast.walk(loop) if isinstance(node, ast.Call)):
+            for call, _ in calls(loop):
                 if ast.unparse(call.func).endswith(".publish"):
                     yield (
                         call.lineno,

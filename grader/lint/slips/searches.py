@@ -5,8 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.slips.sequences import functions
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, functions
 
 LARGE = 50.0  # more than what a lidar of a small robot measures [m]
 LIMITS = frozenset({"range_min", "range_max"})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, Places, places_in
+from gz_course.grader.lint.syntax import Place, Places, functions, last_name, places_in
 
 READ_ONCE = frozenset({"filter", "map", "zip", "reversed", "iter", "enumerate"})
 READERS = frozenset({
@@ -13,15 +13,6 @@ READERS = frozenset({
 })  # fmt: skip
 CHANGES = frozenset({"remove", "pop", "insert"})
 LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
-
-
-def functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
-    return (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
-
-
-def _last(node: ast.expr) -> str:
-    """Return the last part of the name of what is called."""
-    return ast.unparse(node).rpartition(".")[2]
 
 
 def assigned(function: ast.FunctionDef) -> dict[str, list[ast.expr | None]]:
@@ -56,7 +47,7 @@ def read_twice(tree: ast.AST) -> Iterator[Place]:
 
 def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
     for node in ast.walk(function):
-        if isinstance(node, ast.Call) and _last(node.func) in READERS:
+        if isinstance(node, ast.Call) and last_name(node.func) in READERS:
             yield from (each for each in node.args if isinstance(each, ast.Name) and each.id == name)
         elif isinstance(node, ast.For | ast.comprehension) and ast.unparse(node.iter) == name:
             ends = isinstance(node, ast.For) and any(
@@ -70,7 +61,7 @@ def changed_while_read(tree: ast.AST) -> Iterator[Place]:
     """Find a loop over a list that takes elements out of the same list, and goes on."""
     for loop in (node for node in ast.walk(tree) if isinstance(node, ast.For)):
         over = loop.iter
-        if isinstance(over, ast.Call) and _last(over.func) == "enumerate" and over.args:
+        if isinstance(over, ast.Call) and last_name(over.func) == "enumerate" and over.args:
             over = over.args[0]
         if not isinstance(over, ast.Name | ast.Attribute):
             continue
@@ -160,7 +151,7 @@ def _silent(tree: ast.Module) -> Iterator[Place]:
                 "the module logging is Python's own log, which ROS does not read; the log of the node is "
                 "self.get_logger().info(...)",
             )
-        elif "get_logger" in names and {_last(each.func) for each in calls} == {"debug"}:
+        elif "get_logger" in names and {last_name(each.func) for each in calls} == {"debug"}:
             yield call.lineno, "debug() is silent at a logger's usual level, INFO: use info()"
 
 

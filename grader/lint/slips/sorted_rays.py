@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, functions
 
 FINDS = frozenset({"index", "argmin", "nanargmin"})
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
@@ -19,7 +19,7 @@ DONE = {
 
 def places_for_rays(tree: ast.AST) -> Iterator[Place]:
     """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
-    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+    for function in functions(tree):
         found = dict(_places(function, dict(_changed_lists(function))))
         stored = [node.id for node in ast.walk(function) if isinstance(node, ast.Name) and _is_store(node)]
         for node in ast.walk(function):

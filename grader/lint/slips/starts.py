@@ -5,14 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, functions
 
 LONG = 1.0  # [s] or more is no time between two calls
 
 
 def set_anew(tree: ast.AST) -> Iterator[Place]:
     """Find `now - self.start` that is compared with seconds, where each call also sets `self.start = now`."""
-    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+    for function in functions(tree):
         always = {
             ast.unparse(statement.targets[0]): statement
             for statement in function.body

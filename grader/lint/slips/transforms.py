@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.slips.scan_callbacks import callbacks
-from gz_course.grader.lint.slips.sequences import functions
-from gz_course.grader.lint.syntax import Place, Places, places_in
+from gz_course.grader.lint.syntax import Place, Places, calls, functions, last_name, places_in
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
 SPINS = frozenset({"spin", "spin_once", "spin_until_future_complete"})
@@ -20,19 +19,11 @@ KEEPS = frozenset({"append", "appendleft", "put", "add", "insert", "extend"})
 MOST = 4  # lookups that are recorded
 
 
-def _calls(tree: ast.AST) -> Iterator[ast.Call]:
-    return (node for node in ast.walk(tree) if isinstance(node, ast.Call))
-
-
-def _last(node: ast.expr) -> str:
-    return ast.unparse(node).rpartition(".")[2]
-
-
 def _threads(tree: ast.AST) -> bool:
     """Return whether more than one thread may run callbacks."""
     return any(
-        _last(call.func) in ("MultiThreadedExecutor", "Thread") or "spin_thread" in [each.arg for each in call.keywords]
-        for call in _calls(tree)
+        name in ("MultiThreadedExecutor", "Thread") or "spin_thread" in [each.arg for each in call.keywords]
+        for call, name in calls(tree)
     )
 
 
@@ -43,11 +34,11 @@ def new_buffers(tree: ast.AST) -> Iterator[Place]:
         if function.name not in handed:
             continue
         guarded = {id(inner) for node in ast.walk(function) if isinstance(node, ast.If) for inner in ast.walk(node)}
-        for call in _calls(function):
-            if _last(call.func) in ("Buffer", "TransformListener") and id(call) not in guarded:
+        for call, name in calls(function):
+            if name in ("Buffer", "TransformListener") and id(call) not in guarded:
                 yield (
                     call.lineno,
-                    f"the callback {function.name} makes a new {_last(call.func)} each time, which has heard no "
+                    f"the callback {function.name} makes a new {name} each time, which has heard no "
                     "transform yet: make buffer and listener once, in __init__",
                 )
                 break
@@ -59,8 +50,8 @@ def no_listener(tree: ast.AST) -> Iterator[Place]:
     names |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     if "Buffer" not in names or not names & ASKED or names & {"TransformListener", "set_transform"}:
         return
-    for call in _calls(tree):
-        if _last(call.func) == "Buffer":
+    for call, name in calls(tree):
+        if name == "Buffer":
             yield (
                 call.lineno,
                 "nothing fills this buffer: TransformListener(buffer, node) hears /tf and /tf_static and puts the "
@@ -74,7 +65,7 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
         return
     handed = callbacks(tree)
     for function in functions(tree):
-        spins = [call for call in _calls(function) if function.name in handed and _last(call.func) in SPINS]
+        spins = [call for call, name in calls(function) if function.name in handed and name in SPINS]
         for call in (each for each in spins if ast.unparse(each.func).startswith("rclpy.")):
             yield (
                 call.lineno,
@@ -84,8 +75,8 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
         for node in ast.walk(function):
             if not isinstance(node, ast.While) or function.name in ("main", "__init__"):
                 continue
-            asks = any(_last(call.func) in ASKED for call in _calls(node))
-            if asks and not any(_last(call.func) in SPINS for call in _calls(node)) and _endless(node):
+            asks = any(name in ASKED for call, name in calls(node))
+            if asks and not any(name in SPINS for call, name in calls(node)) and _endless(node):
                 yield (
                     node.lineno,
                     "this loop waits for a transform in the only thread of the node: while it runs, no transform is "
@@ -95,7 +86,7 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
 
 def _endless(loop: ast.While) -> bool:
     """Return whether a loop goes on until it gets a transform."""
-    return any(_last(call.func) in ASKED for call in _calls(loop.test)) or (
+    return any(name in ASKED for call, name in calls(loop.test)) or (
         isinstance(loop.test, ast.Constant) and any(isinstance(node, ast.Try) for node in ast.walk(loop))
     )
 
@@ -114,8 +105,8 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
             if time is not None and (_is_now(time) or ast.unparse(time) in now) and len(call.args) <= 3:
                 yield (
                     call.lineno,
-                    f"{_last(call.func)}() asks for the transform of this very moment, now(), which has not come yet "
-                    "when it is asked for: the time belongs to the data, as in Time.from_msg(msg.header.stamp)",
+                    f"{last_name(call.func)}() asks for the transform of this very moment, now(), which has not come "
+                    "yet when it is asked for: the time belongs to the data, as in Time.from_msg(msg.header.stamp)",
                 )
 
 
@@ -126,8 +117,8 @@ def _is_now(node: ast.expr) -> bool:
 
 def _lookups(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr | None]]:
     """Yield each call that asks tf2 for a transform, with its time."""
-    for call in _calls(tree):
-        if _last(call.func) in ASKED:
+    for call, name in calls(tree):
+        if name in ASKED:
             time = call.args[2] if len(call.args) > 2 else None
             yield call, next((each.value for each in call.keywords if each.arg == "time"), time)
 
@@ -151,8 +142,8 @@ def _asked_for(tree: ast.Module) -> Iterator[dict[str, Any]]:
         named = [each.value for each in call.keywords if each.arg in ("target_frame", "source_frame")]
         frames = _texts([*call.args[:2], *named], constants)
         yield {"line": call.lineno, "frames": frames, "gives_up": gives_up and _of_a_stamp(tree, time)}
-    for call in _calls(tree):
-        if _last(call.func) == "transform" and "buf" in ast.unparse(call.func).lower() and call.args:
+    for call, name in calls(tree):
+        if name == "transform" and "buf" in ast.unparse(call.func).lower() and call.args:
             yield {"line": call.lineno, "frames": _texts(call.args[1:2], constants), "gives_up": gives_up}
 
 
@@ -176,7 +167,7 @@ def _keeps_messages(tree: ast.AST) -> bool:
     for function in functions(tree):
         given = {each.arg for each in function.args.args} - {"self"}
         for node in ast.walk(function):
-            kept = isinstance(node, ast.Call) and _last(node.func) in KEEPS and "." in ast.unparse(node.func)
+            kept = isinstance(node, ast.Call) and last_name(node.func) in KEEPS and "." in ast.unparse(node.func)
             kept |= isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("self.")
             if kept and given & {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}:
                 return True

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, called, calls, functions
 
 LONGEST_WAIT = 8.0  # [s] of counted ticks; a later message was hardly meant
 ENDS = ("shutdown", "destroy_node")  # what belongs behind spin()
@@ -13,11 +13,6 @@ HARMLESS = frozenset({
     *ENDS, "try_shutdown", "join", "cancel", "destroy", "close", "stop", "remove_node", "print", "get_logger", "info",
     "warning", "error", "ok", "exit", "Twist",
 })  # fmt: skip
-
-
-def called(node: ast.AST) -> list[str]:
-    """Return the last part of the name of everything that is called within a statement or an expression."""
-    return [ast.unparse(each.func).rpartition(".")[2] for each in ast.walk(node) if isinstance(each, ast.Call)]
 
 
 def blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
@@ -40,9 +35,8 @@ def behind_spin(tree: ast.AST) -> Iterator[Place]:
 
     Right behind spin(), a cancel() that stands nowhere else and a function that publishes are no clearing up.
     """
-    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
-    awaited = {each.name for each in functions if "publish" in called(each)}
-    awaited |= {"cancel"} if called(tree).count("cancel") == 1 else set()
+    awaited = {each.name for each in functions(tree) if "publish" in called(each)}
+    awaited |= {"cancel"} if sum(name == "cancel" for _, name in calls(tree)) == 1 else set()
     for block in blocks(tree):
         spins = [i for i, statement in enumerate(block) if _spins(statement)]
         after = block[spins[0] + 1 :] if spins else []
@@ -52,7 +46,7 @@ def behind_spin(tree: ast.AST) -> Iterator[Place]:
                 after += [*(part for handler in each.handlers for part in handler.body), *each.finalbody]
         for statement in after:
             harmless = HARMLESS - awaited if id(statement) in meant else HARMLESS
-            if lost := [name for name in called(statement) if name not in harmless]:
+            if lost := [name for _, name in calls(statement) if name not in harmless]:
                 yield (
                     statement.lineno,
                     f"{lost[0]}() stands behind spin(), which returns only when the node is shut down: it does not run "

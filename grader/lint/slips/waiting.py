@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.slips.unreached import blocks, called
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.slips.unreached import blocks
+from gz_course.grader.lint.syntax import Place, called, calls, functions
 
 SPINS = frozenset(
     {"spin", "spin_once", "spin_some", "spin_until_future_complete", "wait_for_message", "wait_for_service"}
@@ -17,28 +17,25 @@ THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "Thr
 
 def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
     """Find an endless loop, or one that waits for the clock, in which nothing spins the node."""
-    calls = set(called(tree))
-    if calls & THREADS:
+    everything = called(tree)
+    if everything & THREADS:
         return
-    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
-    spinning = {function.name for function in functions if SPINS & set(called(function))}
-    for function in [each for each in functions if _runs_before_spin(each, tree)]:
+    spinning = {function.name for function in functions(tree) if SPINS & called(function)}
+    for function in [each for each in functions(tree) if _runs_before_spin(each, tree)]:
         for node in ast.walk(function):
             if not isinstance(node, ast.While):
                 continue
-            inside = set(called(node))
+            inside = called(node)
             if inside & (SPINS | spinning):
                 continue
             endless = (isinstance(node.test, ast.Constant) and bool(node.test.value)) or "ok" in called(node.test)
-            if "create_rate" in calls and "sleep" in inside:
-                line = next(
-                    each.lineno for each in ast.walk(node) if isinstance(each, ast.Call) and "sleep" in called(each)
-                )
+            if "create_rate" in everything and "sleep" in inside:
+                line = next(call.lineno for call, _ in calls(node) if "sleep" in called(call))
                 yield (
                     line,
-                    "the sleep() of a Rate waits for a timer of the node, and nothing spins the node meanwhile: it "
-                    "never "
-                    "returns. Let a timer call a function, create_timer(PERIOD, callback), and call rclpy.spin(node)",
+                    "the sleep() of a Rate waits for a timer of the node, and nothing spins the node meanwhile: "
+                    "it never returns. Let a timer call a function, create_timer(PERIOD, callback), and call "
+                    "rclpy.spin(node)",
                 )
                 return
             if (endless and not any(isinstance(each, ast.Break | ast.Return) for each in ast.walk(node))) or (
@@ -48,8 +45,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
                 yield (
                     node.lineno,
                     f"this loop in {where} runs before anything spins the node: meanwhile no timer, no callback and "
-                    f"not "
-                    "even its clock runs. Let a timer call a function again and again, and call rclpy.spin(node)",
+                    "not even its clock runs. Let a timer call a function again and again, and call rclpy.spin(node)",
                 )
                 return
 
@@ -71,7 +67,7 @@ def _runs_before_spin(function: ast.FunctionDef, tree: ast.AST) -> bool:
 
 def rates(tree: ast.AST) -> Iterator[Place]:
     """Find the sleep() of a Rate inside of a callback of a node with one thread."""
-    if "create_rate" not in called(tree) or THREADS & set(called(tree)):
+    if "create_rate" not in called(tree) or THREADS & called(tree):
         return
     rate = {
         ast.unparse(node.targets[0])
@@ -83,8 +79,7 @@ def rates(tree: ast.AST) -> Iterator[Place]:
             yield (
                 node.lineno,
                 f"{ast.unparse(node.func)}() waits for a timer of the node, which only another thread could run: it "
-                f"never "
-                "returns. A timer, create_timer(PERIOD, callback), calls a function again and again",
+                "never returns. A timer, create_timer(PERIOD, callback), calls a function again and again",
             )
             return
 

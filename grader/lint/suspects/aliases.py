@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.headings import Suspect, calls
+from gz_course.grader.lint.syntax import Suspect, called, functions
 
 
 def aliases(tree: ast.AST) -> Iterator[Suspect]:
     """Find `grid = self.map` followed by `grid[...] = ...` in a function that publishes no map."""
-    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+    for function in functions(tree):
         for node in ast.walk(function):
             if not isinstance(node, ast.Assign) or len(node.targets) != 1:
                 continue
@@ -36,7 +36,7 @@ def _changes(function: ast.FunctionDef, name: str, line: int) -> Iterator[ast.st
         if not isinstance(node, ast.Assign | ast.AugAssign) or node.lineno <= line or target is None:
             continue
         part = isinstance(target, ast.Subscript) and ast.unparse(target.value) == name
-        if part or (isinstance(node, ast.AugAssign) and ast.unparse(target) == name and bool(calls(node.value))):
+        if part or (isinstance(node, ast.AugAssign) and ast.unparse(target) == name and bool(called(node.value))):
             yield node
 
 

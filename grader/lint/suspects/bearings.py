@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.suspects.headings import Suspect, assigned, calls
+from gz_course.grader.lint.syntax import Suspect, assigned, called
 
 INCREMENT = "angle_increment"
 OFFSETS = re.compile(r"\bangle_m(?:in|ax)\b")
@@ -86,7 +86,7 @@ def _shifted(node: ast.AST, parent: dict[ast.AST, ast.AST], summed: set[str]) ->
 
 def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
     """Find an angle of a scan, or of atan2, that is compared with a number of degrees or subtracted from one."""
-    if calls(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", ast.unparse(tree)):
+    if called(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", ast.unparse(tree)):
         return
     known, names = named_numbers(tree), _radians(tree)
     for node in ast.walk(tree):
@@ -136,7 +136,7 @@ def _radians(tree: ast.AST) -> set[str]:
 
 def _is_index(node: ast.expr) -> bool:
     """Return whether a value is a number of rays, not an angle."""
-    return bool(calls(node) & {"int", "round", "len", "floor", "ceil"}) or any(
+    return bool(called(node) & {"int", "round", "len", "floor", "ceil"}) or any(
         isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.FloorDiv) for each in ast.walk(node)
     )
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.gyroscopes import angle_sums, reads_rates
-from gz_course.grader.lint.suspects.headings import Suspect, assigned
+from gz_course.grader.lint.syntax import Suspect, assigned
 
 BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.headings import Suspect, assigned, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name
 
 MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"})
 ERROR = re.compile(
@@ -14,10 +14,6 @@ ERROR = re.compile(
 )  # what the deviation from what is wanted, and its sum, are called
 STEPS = 4  # names followed at most
 Function = ast.FunctionDef | ast.AsyncFunctionDef
-
-
-def _functions(tree: ast.AST) -> Iterator[Function]:
-    return (node for node in ast.walk(tree) if isinstance(node, Function))
 
 
 def _lists_of_ranges(function: Function) -> set[str]:
@@ -60,11 +56,11 @@ def means(tree: ast.AST) -> Iterator[Suspect]:
     """Find the mean, or the median, of ranges in a node that steers, in place of the nearest of them."""
     if "angular.z" not in ast.unparse(tree):
         return
-    for function in _functions(tree):
+    for function in functions(tree):
         lists = _lists_of_ranges(function)
         for node in ast.walk(function):
             of = ""
-            if isinstance(node, ast.Call) and last_name(node) in MEANS and node.args:
+            if isinstance(node, ast.Call) and last_name(node.func) in MEANS and node.args:
                 of = ast.unparse(node.args[0])
             elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
                 of = _summed(node)
@@ -87,7 +83,7 @@ def _summed(node: ast.BinOp) -> str:
 
 def added_commands(tree: ast.AST) -> Iterator[Suspect]:
     """Find a turning rate that is made by adding to the last one."""
-    for function in _functions(tree):
+    for function in functions(tree):
         values = {
             ast.unparse(target): value for target, value in assigned(function) if not isinstance(target, ast.Tuple)
         }
@@ -177,10 +173,10 @@ def integrals(tree: ast.AST) -> Iterator[Suspect]:
 
 def kept_parameters(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Parameter that __init__ keeps: other than its name says, it does not follow the node's parameter."""
-    init = next((function for function in _functions(tree) if function.name == "__init__"), None)
+    init = next((function for function in functions(tree) if function.name == "__init__"), None)
     for target, value in assigned(init) if init is not None else ():
         kept = ast.unparse(target)
-        if isinstance(value, ast.Call) and last_name(value) == "get_parameter" and kept.startswith("self."):
+        if isinstance(value, ast.Call) and last_name(value.func) == "get_parameter" and kept.startswith("self."):
             yield (
                 value.lineno,
                 "parameter",

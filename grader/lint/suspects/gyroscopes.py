@@ -6,7 +6,8 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.headings import TO_RADIANS, Suspect, assigned, calls, last_name
+from gz_course.grader.lint.suspects.headings import TO_RADIANS
+from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name
 
 TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
 WRAPS = frozenset({"remainder", "fmod", "atan2", "arctan2", "wrap", "normalize", "normalize_angle"})
@@ -140,7 +141,7 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
             target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
             if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or ast.unparse(target) not in names:
                 continue
-            wraps = bool(calls(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
+            wraps = bool(called(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
             wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in ast.walk(node.value))
             wraps |= (
                 isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in ast.unparse(node.value)
@@ -163,7 +164,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
                 ("angular_velocity.x", "angular_velocity.y")
             ):
                 yield node.lineno, "gyroscope", f"{ast.unparse(node)} is tilting: turning on the spot is about z"
-            if isinstance(node, ast.Call) and calls(node) & {"degrees", "rad2deg"}:
+            if isinstance(node, ast.Call) and called(node) & {"degrees", "rad2deg"}:
                 yield (
                     node.lineno,
                     "gyroscope",
@@ -184,7 +185,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
 
 def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is compared with 360 where nothing makes degrees."""
-    if calls(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
+    if called(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
         return
     for node in ast.walk(tree):
         if not isinstance(node, ast.Compare):
@@ -251,7 +252,7 @@ def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
         for node in ast.walk(function):
             text = ast.unparse(node) if isinstance(node, ast.Call | ast.BinOp) else ""
             given: ast.expr | None = None
-            if isinstance(node, ast.Call) and last_name(node) in TO_RADIANS and node.args:
+            if isinstance(node, ast.Call) and last_name(node.func) in TO_RADIANS and node.args:
                 given = node.args[0]
             elif isinstance(node, ast.BinOp) and BY_HAND.search(text) and not BY_HAND.search(ast.unparse(node.left)):
                 given = node.left
@@ -314,7 +315,7 @@ def _no_mean(part: ast.AST, lists: set[str]) -> str:
     """Return what a part of an expression is if it is made of a list of rates and is not their mean."""
     if isinstance(part, ast.Call):
         given = {ast.unparse(each) for each in (*part.args, part.func) if isinstance(each, ast.Name | ast.Attribute)}
-        return NO_MEANS.get(last_name(part), "") if given & lists else ""
+        return NO_MEANS.get(last_name(part.func), "") if given & lists else ""
     if isinstance(part, ast.Subscript) and not _sliced(part) and ast.unparse(part.value) in lists:
         return "is a single one of the rates, with its noise"
     return ""
@@ -329,7 +330,7 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
     for function in reads_rates(tree):
         values = assigned_once(function)
         for node in ast.walk(function):
-            if not isinstance(node, ast.Call) or last_name(node) not in ("append", "appendleft") or not node.args:
+            if not isinstance(node, ast.Call) or last_name(node.func) not in ("append", "appendleft") or not node.args:
                 continue
             if "angular_velocity" in ast.unparse(expanded(node.args[0], values)):
                 yield ast.unparse(node.func).rpartition(".")[0]

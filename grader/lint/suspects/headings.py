@@ -6,7 +6,8 @@ import ast
 import re
 from collections.abc import Iterator
 
-Suspect = tuple[int, str, str]
+from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name
+
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
 SINES = frozenset({"cos", "sin", "tan"})
 TO_DEGREES = frozenset({"degrees", "rad2deg"})
@@ -14,29 +15,6 @@ TO_RADIANS = frozenset({"radians", "deg2rad"})
 HEADING = re.compile(r"heading|yaw|theta|\bth\b|phi|psi|angle|direction|orientation", re.IGNORECASE)
 OF_SCANS = re.compile(r"\bangle_(?:min|max|increment)\b")
 X, Y = re.compile(r"\bd?x\b|\[0\]|\bd_?x\b|\bdelta_x\b"), re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b")
-
-
-def last_name(call: ast.Call) -> str:
-    """Return the last part of the name of what is called: `cos` of `math.cos(x)`."""
-    return ast.unparse(call.func).rpartition(".")[2]
-
-
-def calls(node: ast.AST) -> set[str]:
-    return {last_name(each) for each in ast.walk(node) if isinstance(each, ast.Call)}
-
-
-def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
-    """Yield every target of an assignment with its value; the parts of tuples one by one."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
-            yield node.target, node.value
-        if not isinstance(node, ast.Assign):
-            continue
-        for target in node.targets:
-            if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
-                yield from zip(target.elts, node.value.elts, strict=False)
-            else:
-                yield target, node.value
 
 
 def _quaternions(tree: ast.AST) -> set[str]:
@@ -73,13 +51,14 @@ def _signed(tree: ast.AST, names: set[str]) -> bool:
     asking = (
         node
         for node in ast.walk(tree)
-        if isinstance(node, ast.Compare) or (isinstance(node, ast.Call) and last_name(node) in ("copysign", "sign"))
+        if isinstance(node, ast.Compare)
+        or (isinstance(node, ast.Call) and last_name(node.func) in ("copysign", "sign"))
     )
     return any(_part(each, names) == "z" for node in asking for each in ast.walk(node))
 
 
 def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
-    used, right = calls(value) - LIMITS, "the heading is 2 * atan2(orientation.z, orientation.w)"
+    used, right = called(value) - LIMITS, "the heading is 2 * atan2(orientation.z, orientation.w)"
     if not used and len(parts) == 1:
         (part,) = parts
         what = {"z": "the sine of half of it", "w": "the cosine of half of it"}.get(part, "nearly 0 on flat ground")
@@ -101,9 +80,9 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
-        name, given = last_name(node), [*node.args]
+        name, given = last_name(node.func), [*node.args]
         text = ast.unparse(node)[:60]
-        if name in SINES and given and not calls(given[0]) & TO_RADIANS and not _to_radians(given[0]):
+        if name in SINES and given and not called(given[0]) & TO_RADIANS and not _to_radians(given[0]):
             parts = {ast.unparse(each) for each in ast.walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
                 yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
@@ -112,7 +91,7 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _in_degrees(value: ast.AST) -> bool:
-    return bool(calls(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", ast.unparse(value)))
+    return bool(called(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", ast.unparse(value)))
 
 
 def _to_radians(value: ast.AST) -> bool:
@@ -124,7 +103,7 @@ def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     for target, value in assigned(tree):
         parts = {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
-        wrong = (_in_degrees(value) or parts & in_degrees) and not calls(value) & TO_RADIANS
+        wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
         if wrong and ast.unparse(target).endswith("angular.z"):
             yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
 
@@ -132,7 +111,7 @@ def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
 def sine_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find atan2 of x and y."""
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or last_name(node) not in ("atan2", "arctan2") or len(node.args) != 2:
+        if not isinstance(node, ast.Call) or last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
             continue
         first, second = (ast.unparse(each) for each in node.args)
         if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
@@ -149,7 +128,7 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
             continue
-        if HEADING.search(ast.unparse(node.right)) and calls(node.left) & {"atan2", "arctan2"}:
+        if HEADING.search(ast.unparse(node.right)) and called(node.left) & {"atan2", "arctan2"}:
             yield (
                 node.lineno,
                 "wrap",

@@ -7,7 +7,8 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.gyroscopes import assigned_once, expanded
-from gz_course.grader.lint.suspects.headings import SINES, Suspect, assigned, calls, last_name
+from gz_course.grader.lint.suspects.headings import SINES
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name
 
 ADDS = frozenset({"append", "add", "insert"})
 ROUNDS = frozenset({"round", "around", "rint", "floor", "int", "trunc", "ceil"})
@@ -27,7 +28,7 @@ def kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, ast.Call, str]]:
 
 def _calls(tree: ast.AST, names: frozenset[str] | set[str]) -> Iterator[ast.Call]:
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and last_name(node) in names:
+        if isinstance(node, ast.Call) and last_name(node.func) in names:
             yield node
 
 
@@ -52,7 +53,7 @@ def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
 
 def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     """Say whether all known places are looked at, in the function that adds one or in one that publishes nothing."""
-    for each in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+    for each in functions(tree):
         if each is not function and ".publish(" in ast.unparse(each):
             continue
         loops = (node for node in ast.walk(each) if isinstance(node, ast.For | ast.While | ast.comprehension))
@@ -81,14 +82,14 @@ def rounded(tree: ast.AST) -> Iterator[Suspect]:
 def _equal(line: int, code: ast.expr, key: ast.expr) -> Iterator[Suspect]:
     """Yield what is wrong with a place as a key."""
     text = ast.unparse(code)[:70]
-    if calls(key) & ROUNDS or "//" in ast.unparse(key):
+    if called(key) & ROUNDS or "//" in ast.unparse(key):
         yield (
             line,
             "same",
             f"{text} keeps rounded numbers: points of one post near the border between two of them are rounded to "
             "different ones, so it counts again; compare distances with those that are known",
         )
-    elif isinstance(key, ast.Tuple) and calls(key) <= SINES:
+    elif isinstance(key, ast.Tuple) and called(key) <= SINES:
         yield (
             line,
             "same",
@@ -110,7 +111,7 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
                         f"{ast.unparse(call)[:50]} is done in the loop, for each known post that is far away: a post "
                         "is new only if all known ones are, which is known after the loop",
                     )
-            if isinstance(node, ast.Call) and last_name(node) == "any" and name in ast.unparse(node):
+            if isinstance(node, ast.Call) and last_name(node.func) == "any" and name in ast.unparse(node):
                 inside = node.args[0] if node.args else None
                 if isinstance(inside, ast.GeneratorExp | ast.ListComp) and _far(inside.elt) and _guards(function, node):
                     yield (
@@ -140,7 +141,7 @@ def _guards(function: ast.AST, call: ast.Call) -> bool:
 
 def unturned(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are kept in a file in which nothing is turned."""
-    if calls(tree) & TURNS or any(
+    if called(tree) & TURNS or any(
         isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult) for node in ast.walk(tree)
     ):
         return

@@ -5,15 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.lint.syntax import called
+
 Suspect = tuple[int, str, str]
 ASKS = "is_cancel_requested"
 STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
 Loop = ast.While | ast.For
-
-
-def _called(node: ast.AST) -> set[str]:
-    """Return the last parts of the names of what is called in a node."""
-    return {ast.unparse(n.func).rpartition(".")[2] for n in ast.walk(node) if isinstance(n, ast.Call)}
 
 
 def _asks(node: ast.AST) -> list[int]:
@@ -26,7 +23,7 @@ def _askers(tree: ast.AST) -> set[str]:
     functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
     found = {each.name for each in functions if _asks(each)}
     for _ in functions:
-        more = {each.name for each in functions if _called(each) & found} - found
+        more = {each.name for each in functions if called(each) & found} - found
         if not more:
             break
         found |= more
@@ -39,9 +36,9 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
     if not lines:
         return
     for loop in ast.walk(tree):
-        if not isinstance(loop, Loop) or not _called(loop) & STEPS or _asks(loop) or _called(loop) & askers:
+        if not isinstance(loop, Loop) or not called(loop) & STEPS or _asks(loop) or called(loop) & askers:
             continue
-        if any(isinstance(each, Loop) and each is not loop and _called(each) & STEPS for each in ast.walk(loop)):
+        if any(isinstance(each, Loop) and each is not loop and called(each) & STEPS for each in ast.walk(loop)):
             continue
         around = any(isinstance(n, Loop) and loop in ast.walk(n) and lines[0] in _asks(n) for n in ast.walk(tree))
         where = "for each waypoint, " if around else ""
@@ -70,7 +67,7 @@ def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
 
 def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
-    if not _called(tree) & {"succeed"}:
+    if not called(tree) & {"succeed"}:
         return  # it executes no goals
     made: dict[str, list[ast.Assign]] = {}
     counted = {}

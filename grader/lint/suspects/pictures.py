@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.headings import Suspect, assigned, calls
+from gz_course.grader.lint.syntax import Suspect, assigned, called
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
@@ -21,7 +21,7 @@ RIGHT = "the shape of a picture is (height, width, channels)"
 
 def _arrays(tree: ast.AST) -> set[str]:
     """Return the names of pictures: what is assigned an array made of a message."""
-    return {ast.unparse(target) for target, value in assigned(tree) if calls(value) & {"imgmsg_to_cv2", "reshape"}}
+    return {ast.unparse(target) for target, value in assigned(tree) if called(value) & {"imgmsg_to_cv2", "reshape"}}
 
 
 def shapes(tree: ast.AST) -> Iterator[Suspect]:

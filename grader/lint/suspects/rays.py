@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.headings import Suspect, assigned, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, last_name
 
 
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
@@ -27,7 +27,7 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
 def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
     whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".ranges")}
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and last_name(node) == "min" and len(node.args) == 1:
+        if isinstance(node, ast.Call) and last_name(node.func) == "min" and len(node.args) == 1:
             text = ast.unparse(node.args[0])
             if (text.endswith(".ranges") or text in whole) and not node.keywords:
                 yield (
