@@ -8,13 +8,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 
-from gz_course.grader.score.explanations.of_errors import libraries
+from gz_course.grader.score.explanations.of_errors import libraries, values
 from gz_course.grader.score.explanations.of_errors.imports import import_fault, unknown_name
 from gz_course.grader.score.explanations.of_errors.node_interface import arguments, attributes, own_arguments
 from gz_course.grader.score.explanations.of_errors.operands import calls, lists, operands
 from gz_course.grader.score.explanations.of_errors.syntax import syntax
 from gz_course.grader.score.explanations.of_errors.transforms import transform_fault
-from gz_course.grader.score.explanations.of_errors.values import impossible
 from gz_course.sim.did_you_mean import nearest_name
 
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
@@ -82,7 +81,7 @@ MEANINGS = (
         "message types are in the module {1}.msg: from {1}.msg import {0}",
     ),
     (
-        re.compile(r"AttributeError: 'Duration' object has no attribute '(?:seconds|secs|sec|to_sec|total_seconds)'"),
+        re.compile(r"AttributeError: 'Duration' object has no attribute"),
         "in seconds it is duration.nanoseconds / 1e9",
     ),
     (
@@ -119,10 +118,6 @@ MEANINGS = (
         "rclpy.init() must be called before the first node is made",
     ),
     (
-        re.compile(r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'"),
-        "a node needs a name: super().__init__('NODE_NAME')",
-    ),
-    (
         re.compile(r"TypeError: Node\.create_(?:subscription|publisher)\(\) missing 1 required .*'qos_profile'"),
         "the last argument, the depth of the queue, is missing, such as 10",
     ),
@@ -153,10 +148,6 @@ MEANINGS = (
         ),
         "a timer calls its callback without arguments, a subscription with the message: def {0}(self) is one for a "
         "timer, def {0}(self, {1}) one for a subscription",
-    ),
-    (
-        re.compile(r"TypeError: spin\(\) missing 1 required positional argument: 'node'"),
-        "rclpy.spin() needs the node that is to run: rclpy.spin(node)",
     ),
     (
         re.compile(r"TypeError: spin_once\(\) takes 1 positional argument"),
@@ -211,9 +202,7 @@ MEANINGS = (
         "the list is empty: the condition has kept no value at all",
     ),
     (
-        re.compile(
-            r"TypeError: 'Metaclass_(\w+)' object|TypeError: 'property' object is not (?:subscriptable|iterable)"
-        ),
+        re.compile(r"TypeError: 'Metaclass_(\w+)' object|TypeError: 'property' object is not subscriptable"),
         "that is the class of the message; the message itself is the callback's argument",
     ),
     (
@@ -346,8 +335,8 @@ def meaning(error: str, code: str = "") -> str:
         *(look(error, code) for look in LOOKS),
         _listed(error, libraries.MEANINGS),
         _field(error),
+        _listed(error, values.MEANINGS),
         _listed(error, MEANINGS),
-        impossible(error, code),
     )
     return next(filter(None, known), "")
 

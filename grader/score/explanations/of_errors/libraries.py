@@ -94,13 +94,6 @@ MEANINGS = (
     # parameters
     (
         re.compile(
-            r"TypeError: (?:unsupported operand type\(s\) for .*'Parameter'|.*not supported between .*'Parameter'|"
-            r"must be real number, not Parameter|bad operand type for .*'Parameter'|float\(\) .* not 'Parameter')"
-        ),
-        "get_parameter('NAME') returns a Parameter; its value is get_parameter('NAME').value",
-    ),
-    (
-        re.compile(
             r"(?:unsupported operand type\(s\) for .*|not supported between .*|real number, not )'?ParameterValue'?"
         ),
         "get_parameter_value() has one field for each type, such as .double_value; .value of the parameter is simpler",
@@ -143,7 +136,7 @@ MEANINGS = (
         "the {1} of {0}.action has no field {2}: ros2 interface show prints its fields",
     ),
     (
-        re.compile(r"AttributeError: type object '(\w+)' has no attribute '(\w+)'"),
+        re.compile(r"AttributeError: type object '(\w+)' has no attribute '(?!_)(\w+)'"),
         "{0} has no {1}: an action has the parts {0}.Goal, {0}.Result and {0}.Feedback",
     ),
     (
@@ -154,10 +147,6 @@ MEANINGS = (
     (
         re.compile(r"invalid transition from state EXECUTING with event CANCELED"),
         "canceled() is for a goal that the client wants to cancel, where goal_handle.is_cancel_requested is true",
-    ),
-    (
-        re.compile(r"TypeError: 'bool' object is not callable"),
-        "what is called is a truth value: is_cancel_requested and is_active are written without brackets",
     ),
     (
         re.compile(r"TypeError: ServerGoalHandle\.(\w+)\(\) takes 1 positional argument but 2 were given"),
@@ -171,10 +160,5 @@ MEANINGS = (
     (
         re.compile(r"TypeError: object (\w+) can't be used in 'await' expression"),
         "only a coroutine or a Future can be awaited, and this is a {0}: leave out await",
-    ),
-    (
-        re.compile(r"TypeError: '(Point|Vector3|Pose)' object is not (?:subscriptable|iterable)|"
-                   r"TypeError: cannot unpack non-iterable (?:Point|Vector3) object"),
-        "a point is no list: its coordinates are .x, .y and .z",
     ),
 )  # fmt: skip

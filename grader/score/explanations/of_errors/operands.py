@@ -54,7 +54,7 @@ def operands(error: str, code: str) -> str:
 
 def _pair(sign: str, left: str, right: str) -> str:
     both = {left, right}
-    if both <= {"Time", "int", "float"} or both == {"Time", "Duration"}:
+    if ("Time" in both and both <= {"Time", "int", "float"}) or both == {"Time", "Duration"}:
         return _times(sign, left, right)
     for kind in (left, right):
         if kind in INSTEAD:
@@ -178,6 +178,8 @@ def calls(error: str, code: str) -> str:
         return "this profile is an object already: hand it over without brackets"
     if kind == "RcutilsLogger":
         return "the logger is not called itself: self.get_logger().info('text')"
+    if kind == "bool" and re.search(r"\bis_(?:cancel_requested|active)\(", code):
+        return "is_cancel_requested and is_active of a goal handle are truth values: they are written without brackets"
     if kind in ("float", "int", "bool", "str", "list", "tuple", "dict", "Timer", "Subscription", "array.array"):
         return (
             f"a {kind} is called like a function: a variable has taken the name of a function (self.x = ... hides "

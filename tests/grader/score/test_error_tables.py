@@ -1,0 +1,137 @@
+"""Each entry of the tables of errors is the one that explains some error: no earlier entry hides it."""
+
+import pytest
+
+from gz_course.grader.score import python_errors
+from gz_course.grader.score.explanations.of_errors import libraries, values
+from gz_course.grader.score.python_errors import meaning
+
+# First lines of errors, as CPython 3.11, NumPy 2, rclpy 7.1, tf2, cv_bridge and message_filters print them.
+ERRORS = (
+    "AttributeError: 'Duration' object has no attribute 'nanosec'",
+    "AttributeError: 'Duration' object has no attribute 'seconds'",
+    "AttributeError: 'Future' object has no attribute 'success'",
+    "AttributeError: 'Image' object has no attribute 'shape'",
+    "AttributeError: 'LaserScan' object has no attribute 'range'",
+    "AttributeError: 'NoneType' object has no attribute 'ranges'",
+    "AttributeError: 'NoneType' object has no attribute 'successful'",
+    "AttributeError: 'Parameter' object has no attribute 'double_value'",
+    "AttributeError: 'Patrol_Goal' object has no attribute 'request'",
+    "AttributeError: 'Patrol_Result' object has no attribute 'count'",
+    "AttributeError: 'Publisher' object has no attribute 'send'",
+    "AttributeError: 'ServerGoalHandle' object has no attribute 'is_preempt_requested'",
+    "AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'",
+    "AttributeError: 'ServerGoalHandle' object has no attribute 'waypoints'",
+    "AttributeError: 'Subscriber' object has no attribute 'get_message'",
+    "AttributeError: 'Subscription' object has no attribute 'publish'",
+    "AttributeError: 'Subscription' object has no attribute 'registerCallback'",
+    "AttributeError: 'Talker' object has no attribute '_logger'",
+    "AttributeError: 'Talker' object has no attribute 'start'",
+    "AttributeError: 'Time' object has no attribute 'nanoseconds'",
+    "AttributeError: 'Time' object has no attribute 'to_sec'",
+    "AttributeError: 'Timer' object has no attribute 'executor'",
+    "AttributeError: 'float' object has no attribute 'sec'",
+    "AttributeError: 'float' object has no attribute 'x'",
+    "AttributeError: 'list' object has no attribute 'x'",
+    "AttributeError: 'method' object has no attribute 'info'",
+    "AttributeError: 'property' object has no attribute 'x'",
+    "AttributeError: module 'rclpy' has no attribute 'create_publisher'",
+    "AttributeError: type object 'Patrol' has no attribute 'Gaol'",
+    "AttributeError: type object 'str' has no attribute '_TYPE_SUPPORT'",
+    "ConnectivityException: Could not find a connection between 'odom' and 'map'",
+    "CvBridgeError: encoding specified as rgb8, but image has incompatible type: 32FC1 is not a color format",
+    "EOFError: EOF when reading a line",
+    "ExtrapolationException: Lookup would require extrapolation",
+    "ImportError: cannot import name 'Laserscan' from 'sensor_msgs.msg' (msg/__init__.py)",
+    "ImportError: cannot import name 'Node' from 'rclpy' (rclpy/__init__.py)",
+    "ImportError: cannot import name 'String' from 'std_msgs' (std_msgs/__init__.py)",
+    "IndentationError: expected an indented block after 'if' statement on line 3",
+    "IndentationError: unexpected indent",
+    "IndentationError: unindent does not match any outer indentation level",
+    "InvalidArgumentException: Invalid argument '/odom' passed to lookupTransform argument target_frame",
+    "InvalidTopicNameException: Invalid topic name: topic name must not contain characters other than",
+    "InvalidQoSProfileException: Invalid QoS profile: History set to KEEP_LAST without a depth setting.",
+    "KeyError: 'left'",
+    "ModuleNotFoundError: No module named 'geometry_msgs.messages'",
+    "ModuleNotFoundError: No module named 'scipy'",
+    "ModuleNotFoundError: No module named 'std_msg'",
+    "NameError: name 'self' is not defined",
+    "NotInitializedException: rclpy.init() has not been called",
+    "OverflowError: signed char is greater than maximum",
+    "ParameterAlreadyDeclaredException: Parameter(s) already declared: ['side']",
+    "ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']",
+    "ParameterNotDeclaredException: Invalid access to undeclared parameter(s): side",
+    "RCLError: failed to invoke invalid transition from state EXECUTING with event CANCELED",
+    "RCLError: failed to invoke invalid transition from state SUCCEEDED with event SUCCEED",
+    "RCLError: publisher's context is invalid",
+    "RecursionError: maximum recursion depth exceeded",
+    "RuntimeError: Can't subtract times with different clock types",
+    "RuntimeError: Context.init() must only be called once",
+    "RuntimeError: Executor is already spinning",
+    "RuntimeError: Subscription.__init__(): callback should be callable with one argument",
+    "RuntimeError: no running event loop",
+    "TypeError: 'Image' object is not subscriptable",
+    "TypeError: 'Metaclass_Twist' object is not iterable",
+    "TypeError: 'float' object cannot be interpreted as an integer",
+    "TypeError: 'list' object cannot be interpreted as an integer",
+    "TypeError: 'property' object is not iterable",
+    "TypeError: 'property' object is not subscriptable",
+    "TypeError: ApproximateTimeSynchronizer.__init__() missing 1 required positional argument: 'slop'",
+    "TypeError: Buffer.on_pictures() takes 2 positional arguments but 3 were given",
+    "TypeError: Expected <class 'NoneType'>, got <class 'std_msgs.msg._string.String'>",
+    "TypeError: Expected <class 'std_msgs.msg._string.String'>, got <class 'str'>",
+    "TypeError: Expected <class 'std_msgs.msg._string.String'>, got <class 'std_msgs.msg._string.Metaclass_String'>",
+    "TypeError: Expected <class 'std_msgs.msg._string.String'>, got <class 'std_msgs.msg._float32.Float32'>",
+    "TypeError: Expected QoSProfile or int, but received <class 'str'>",
+    "TypeError: Node.create_publisher() takes 4 positional arguments but 5 were given",
+    "TypeError: Node.create_subscription() missing 1 required positional argument: 'qos_profile'",
+    "TypeError: Node.create_timer() missing 1 required positional argument: 'callback'",
+    "TypeError: ServerGoalHandle.succeed() takes 1 positional argument but 2 were given",
+    "TypeError: String.__init__() takes 1 positional argument but 2 were given",
+    "TypeError: Talker.on_message() takes 1 positional argument but 2 were given",
+    "TypeError: Talker.on_timer() missing 1 required positional argument: 'message'",
+    "TypeError: Talker.on_timer() missing 1 required positional argument: 'self'",
+    "TypeError: Talker.on_timer() takes 0 positional arguments but 1 was given",
+    "TypeError: TimeSynchronizer.__init__() takes from 3 to 4 positional arguments but 5 were given",
+    "TypeError: bad argument type for built-in operation",
+    'TypeError: can only concatenate str (not "float") to str',
+    "TypeError: descriptor '__init__' requires a 'super' object but received a 'str'",
+    "TypeError: float() argument must be a string or a real number, not 'builtin_function_or_method'",
+    "TypeError: cannot unpack non-iterable Point object",
+    "TypeError: must be real number, not Parameter",
+    "TypeError: must be real number, not ParameterValue",
+    "TypeError: object Duration can't be used in 'await' expression",
+    "TypeError: object.__init__() takes exactly one argument (the instance to initialize)",
+    "TypeError: only length-1 arrays can be converted to Python scalars",
+    "TypeError: rclpy_resolve_name(): incompatible function arguments. The following argument types",
+    "TypeError: spin_once() takes 1 positional argument but 2 were given",
+    "TypeError: ufunc 'bitwise_and' not supported for the input types, and the inputs could not be safely coerced",
+    "TypeError: unsupported operand type(s) for &: 'float' and 'float'",
+    "UnboundLocalError: cannot access local variable 'count' where it is not associated with a value",
+    "UnboundLocalError: cannot access local variable 'min' where it is not associated with a value",
+    "ValueError: The truth value of an array with more than one element is ambiguous. Use a.any() or a.all()",
+    "ValueError: cannot convert float NaN to integer",
+    "ValueError: cannot reshape array of size 6 into shape (4,2)",
+    "ValueError: could not convert string to float: '0,5'",
+    "ValueError: history depth must be greater than or equal to zero",
+    "ValueError: math domain error",
+    "ValueError: min() arg is an empty sequence",
+    "ValueError: operands could not be broadcast together with shapes (6,) (2,)",
+    "ValueError: timer period must be non-negative",
+    "ZeroDivisionError: division by zero",
+)
+TABLES = {"python_errors": python_errors.MEANINGS, "libraries": libraries.MEANINGS, "values": values.MEANINGS}
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_each_entry_explains_an_error(name):
+    idle = []
+    for pattern, words in TABLES[name]:
+        matches = [(error, match) for error in ERRORS if (match := pattern.search(error))]
+        if not any(meaning(error) == words.format(*match.groups()) for error, match in matches):
+            idle.append((pattern.pattern, [(error, meaning(error)) for error, _ in matches]))
+    assert idle == []
+
+
+def test_each_error_is_explained():
+    assert [error for error in ERRORS if not meaning(error)] == []
