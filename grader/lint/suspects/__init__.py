@@ -13,6 +13,7 @@ from gz_course.grader.lint.suspects import (
     aliases,
     bearings,
     bias_use,
+    bias_while_turning,
     feedback,
     gyroscopes,
     headings,
@@ -20,20 +21,25 @@ from gz_course.grader.lint.suspects import (
     patrols,
     pictures,
     rays,
+    same_places,
+    smoothing,
 )
 from gz_course.grader.lint.syntax import Places, places_in
 
 LOOKS = (
     *headings.LOOKS,
+    *bias_while_turning.LOOKS,
     *gyroscopes.LOOKS,
     *bias_use.LOOKS,
     *rays.LOOKS,
     *known_places.LOOKS,
+    *same_places.LOOKS,
     *patrols.LOOKS,
     *pictures.LOOKS,
     *aliases.LOOKS,
     *bearings.LOOKS,
     *feedback.LOOKS,
+    *smoothing.LOOKS,
 )
 MOST = 12  # suspects kept
 
