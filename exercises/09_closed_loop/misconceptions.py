@@ -119,8 +119,8 @@ def unchanging(run):
 
 
 def late(run):
-    """Find out whether the commands answer an average of many scans, in the run or in the file."""
-    why = suspect(run.recording, "delay")
+    """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
+    why = suspect(run.recording, "delay", "farthest")
     return why or (LAW["late"](*point_and_rates(run)) if len(scans(run)[0]) else "")
 
 
@@ -225,7 +225,7 @@ def old_distance(run):
     usual = float(np.median(run.distance[late]))
     before = (run.times > SETTLED) & (run.times < run.changed)
     kept = float(np.median(run.distance[before])) if before.any() else run.asked[0]
-    if abs(usual - run.asked[0]) > 0.12 or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
+    if abs(usual - run.asked[0]) > KEPT or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
         return ""
     why = suspect(run.recording, "parameter") or "the parameter is read only once"
     return (

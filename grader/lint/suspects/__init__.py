@@ -14,6 +14,7 @@ from gz_course.grader.lint.suspects import (
     bearings,
     bias_use,
     bias_while_turning,
+    farthest,
     feedback,
     gyroscopes,
     headings,
@@ -40,6 +41,7 @@ LOOKS = (
     *bearings.LOOKS,
     *feedback.LOOKS,
     *smoothing.LOOKS,
+    *farthest.LOOKS,
 )
 MOST = 12  # suspects kept
 

@@ -41,3 +41,17 @@ POPPED = "self.last.append(nearest)\n        if len(self.last) > 30:\n          
 def test_averages_over_time(body, kept, words):
     said = [each["said"] for each in suspects(FILE.format(body=body, kept=kept).encode()) if each["about"] == "delay"]
     assert len(said) == bool(words) and all(words in each for each in said), said
+
+
+@pytest.mark.parametrize(
+    ("body", "found"),
+    [
+        ("side = [r for r in scan.ranges if r < 5]\n        distance = max(side)", True),
+        ("distance = np.max(scan.ranges[10:20])", True),
+        ("side = [r for r in scan.ranges if r < 5]\n        distance = min(side) if max(side) < 9 else 9", False),
+        ("distance = max(0.1, nearest)", False),
+    ],
+)
+def test_the_farthest_range(body, found):
+    text = FILE.format(body=body, kept=3).replace("nearest = min(scan.ranges)", "nearest = scan.ranges[90]")
+    assert [each["about"] for each in suspects(text.encode()) if each["about"] == "farthest"] == ["farthest"] * found
