@@ -18,7 +18,10 @@ SOON = 0.15  # [s] between a time and the one that a misconception explains
 
 
 def turned_early(recording):
-    """Return how far the robot turned in the second in which it should stand; empty if it stood."""
+    """Return how far the robot turned in the second in which it should stand; empty if it stood, or no bias counts."""
+    ends = recording.facts().get("endpoints", [])
+    if ends and not any(end["kind"] == "subscription" and end["topic"] == "/imu" for end in ends):
+        return ""
     end = min(round(STAND * 1e9), recording.end_ns)
     turned = abs(float(np.diff(CHECKS.truth(recording, "yaw", np.array([0, end])))[0]))
     if turned < TURNED_EARLY:
@@ -48,8 +51,6 @@ def why_turned(recording, when, turned):
     """Return the misconception whose heading is 2 pi at that time [ns]; empty if there is none."""
     if abs(turned + FULL_TURN) <= 2 * CHECKS.TURN_OFF:
         return "it turned to the right: a positive angular.z turns to the left"
-    if said := turned_early(recording):
-        return said
     gyro = recording.signal("topics/imu/angular_velocity/z")
     before = gyro.times <= when
     times, rates = gyro.times[before] / 1e9, gyro.values[before]
@@ -73,6 +74,8 @@ def why_turned(recording, when, turned):
     by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
     if len(by_odometry) and abs(by_odometry[-1] - by_odometry[0] - FULL_TURN) <= 0.1:
         return "by odometry, or by commanded speed times time, this was 360 degrees: its wheels stand otherwise"
+    if said := turned_early(recording):
+        return said
     angles = {
         "the bias of the gyroscope was added up, too: it says {bias:.3f} rad/s while the robot stands": (rates * spans),
         "the bias was added instead of subtracted: it is {bias:.3f} rad/s": (rates + bias) * spans,

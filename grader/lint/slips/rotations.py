@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.syntax import Place, assigned, functions, last_name
 
@@ -48,7 +48,7 @@ def _is_sum(node: ast.AST) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
 
 
-def _row(node: ast.BinOp, waves: dict[str, ast.expr]) -> tuple[str, Row] | None:
+def _row(node: ast.BinOp, waves: Mapping[str, ast.expr]) -> tuple[str, Row] | None:
     """Return the angle and the factors of cosine and sine in a sum of two such products; None for anything else."""
     found: list[tuple[str, str, float]] = []
     for term, sign in _terms(node, 1.0):

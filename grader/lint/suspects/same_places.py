@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.suspects.known_places import kept
@@ -91,7 +91,7 @@ def _read(node: ast.AST, loop: Loop) -> Iterator[ast.AST]:
                 yield each
 
 
-def _indexed(parts: list[ast.AST | None], name: ast.Name) -> bool:
+def _indexed(parts: Sequence[ast.AST | None], name: ast.Name) -> bool:
     """Say whether a name stands before an index."""
     return any(
         isinstance(each, ast.Subscript) and each.value is name
