@@ -34,6 +34,8 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
             if angle != other or set(row) != set(below) or second.lineno - first.lineno > APART:
                 continue
             (a, b), (c, d) = row.values(), (below[name] for name in row)
+            if abs(a * d - b * c) < 1e-6:
+                continue  # the same coordinate twice
             if max(abs(a * a + b * b - 1), abs(c * c + d * d - 1), abs(a * c + b * d)) > 1e-6:
                 one, two = row
                 yield (

@@ -37,6 +37,7 @@ def said(**changed):
         {"early": "before = now\n        now = message.stamp"},
         {"rotation": "x, y = cos(h) * ahead - sin(h) * left + self.x, sin(h) * ahead + cos(h) * left + self.y"},
         {"rotation": "c, s = cos(h), sin(h)\n        x = c * ahead + s * left\n        y = -s * ahead + c * left"},
+        {"rotation": f"x = 0.0\n        {X}\n        {X}\n        {Y}\n        {Y}"},
         {"rotation": "x = ahead * cos(h)\n        y = left * sin(h)"},
     ],
 )
