@@ -101,11 +101,19 @@ def places_the_posts(recording, parameters):
     right = hits(there, red)
     measured = f"{right.sum()} of {len(right)} points lie at red posts"
     missing = [name for name, place in zip(names, red, strict=True) if not hits(there, place[None]).any()]
+    pictures = np.round(recording.signal("topics/camera/image/header/stamp").values * 1e9).astype(np.int64)
+    stamped = np.isin(np.round(stamps / 1e3), np.round(pictures / 1e3))  # to a microsecond
     passed = right.mean() >= SHARE and not missing
     frames = sorted({line.text for line in recording.lines("topics/red_post/header/frame_id")} - {FRAME})
     if frames or not recording.lines("topics/red_post/header/frame_id"):
         named = repr(shown(frames[0], 40)) if frames else "empty"
         return Finding(False, expected, f"header.frame_id was {named} and not {FRAME!r}")
+    if passed and stamped.mean() < SHARE:
+        seen = f"{(~stamped).sum()} of {len(stamps)} stamps are of no picture"
+        why = "header.stamp must be that of the picture, image.header.stamp, and not the time now"
+        return Finding(False, expected, seen, round(float(came[np.argmin(stamped)] / 1e9), 3), explanation=why)
+    if passed and (why := misconceptions().DIRECTIONS.one_a_picture(recording, there, stamps)):
+        return Finding(False, expected, measured, explanation=why)
     if passed:
         return Finding(True, expected, measured)
     if right.mean() >= SHARE:
@@ -262,43 +270,9 @@ def turns_once(recording, parameters):
         return Finding(False, expected, measured, explanation=why)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
     passed = abs(turned - FULL_TURN) <= TURN_OFF
-    why = "" if passed else why_turned(recording, when, turned) or misconceptions().too_fast(recording, turned)
+    known = misconceptions()
+    why = "" if passed else known.TURNING.why_turned(recording, when, turned) or known.too_fast(recording, turned)
     return Finding(passed, expected, measured, round(when / 1e9, 3), explanation=why)
-
-
-def why_turned(recording, when, turned):
-    """Return the misconception whose heading is 2 pi at that time [ns]; empty if there is none."""
-    if abs(turned + FULL_TURN) <= 2 * TURN_OFF:
-        return "it turned to the right: a positive angular.z turns to the left"
-    if abs(turned) < 0.3 and when < 2.5e9:
-        return "the heading reached a full turn at once: a time in nanoseconds is 1e9 times that in seconds"
-    for turns, words in ((0.5, "half a turn, pi; a full turn is 2 pi"), (2, "two turns, 4 pi; one is 2 pi")):
-        if abs(turned - turns * FULL_TURN) <= TURN_OFF:
-            return f"it was {words}"
-    gyro = recording.signal("topics/imu/angular_velocity/z")
-    before = gyro.times <= when
-    times, rates = gyro.times[before] / 1e9, gyro.values[before]
-    turning = np.abs(truth(recording, "angular_z", gyro.times[before])) > 0.1
-    bias = float((rates - truth(recording, "angular_z", gyro.times[before]))[~turning].mean()) if len(rates) else 0.0
-    if said := misconceptions().suspect(recording, "gyroscope"):
-        return said
-    spans = np.diff(times, prepend=times[:1])
-    z, w = (recording.signal(f"topics/odom/pose/pose/orientation/{part}") for part in "zw")
-    by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
-    if len(by_odometry) and abs(by_odometry[-1] - by_odometry[0] - FULL_TURN) <= 0.1:
-        return "by odometry, or by commanded speed times time, this was 360 degrees: its wheels stand otherwise"
-    angles = {
-        "the bias of the gyroscope was added up, too: it says {bias:.3f} rad/s while the robot stands": (rates * spans),
-        "the bias was added instead of subtracted: it is {bias:.3f} rad/s": (rates + bias) * spans,
-        "each message was taken for 0.01 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.01,
-        "the rates were added up without the time between two messages: add rate * time": rates - bias,
-        "each message was taken for 0.1 s, but they come every 0.04 s: use the stamps": (rates - bias) * 0.1,
-    }
-    for words, steps in angles.items():
-        for counts in (np.ones(len(steps), dtype=bool), turning):
-            if abs(float(steps[counts].sum()) - FULL_TURN) <= max(0.1, 3 * np.abs(steps).max(initial=0.0)):
-                return words.format(bias=bias)
-    return misconceptions().TURNING.other_bias(times, rates, turning, bias)
 
 
 def counts_the_posts(recording, parameters):
@@ -323,7 +297,7 @@ def counts_the_posts(recording, parameters):
     turned = float(np.diff(truth(recording, "yaw", np.array([0, first[0]])))[0])
     if number < red and abs(turned) < 0.9 * FULL_TURN:
         why = f"it came when the robot had turned by {math.degrees(turned):.0f} degrees: the rest was not seen yet"
-    elif number == len(posts(recording, "blue")[0]) != red:
+    elif number == len(posts(recording, "blue")[0]) != red and not places_the_posts(recording, parameters).passed:
         why = "that is the number of blue posts"
     elif number > 3 * max(pictures, 1):
         why = "so many are pixels, or columns, of red posts"
@@ -379,21 +353,21 @@ def stopped(recording):
     drifted, turning = (float(np.diff(truth(recording, name, last))[0]) for name in ("distance", "yaw"))
     if drifted > 0.03 or abs(turning) > 0.05:
         measured = f"it was still moving at the end: {drifted:.2f} m and {turning:.2f} rad in {STILL:g} s"
-        return Finding(False, expected, measured, explanation=misconceptions().still_moving(recording))
+        return Finding(False, expected, measured, explanation=misconceptions().STOPPING.still_moving(recording))
     if not faced:
-        why = misconceptions().faced_nothing(recording, here, start)
+        why = misconceptions().STOPPING.faced_nothing(recording, here, start)
         return Finding(False, expected, "it stood and faced no post", explanation=why)
     name = names[faced[0]]
     away = math.hypot(*seen[faced[0]]) - RADIUS
     measured = f"it stood {away:.2f} m before a {name.partition('_')[0]} post"
     if name == wanted:
         passed = abs(away - STOP) <= STOP_OFF
-        why = "" if passed else misconceptions().wrong_stop(recording, away)
+        why = "" if passed else misconceptions().STOPPING.wrong_stop(recording, away)
         return Finding(passed, expected, measured, explanation=why)
     why = ""
     if name.startswith("blue"):
         why = "it is a blue post: red and blue are swapped (rgb8 and bgr8)"
     elif name.startswith("red"):
         measured += ", which is not the one nearest to the start"
-        why = misconceptions().other_post(recording, name)
+        why = misconceptions().STOPPING.other_post(recording, name)
     return Finding(False, expected, measured, explanation=why)

@@ -12,6 +12,8 @@ import numpy as np
 from gz_course.grader.score.suspects import suspect
 
 CHECKS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("checks.py"))))
+DIRECTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("directions.py"))))
+STOPPING = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("stopping.py"))))
 TURNING = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("turning.py"))))
 HALF_VIEW = 0.5  # [rad] to either side; a post within it is surely in the picture
 SEES = 3.4  # [m] within which a post is surely large enough
@@ -27,6 +29,8 @@ def too_few_points(recording, points):
             "nothing is near enough; take the depth of the red pixels, and leave out what is not finite"
         )
     red = CHECKS.posts(recording, "red")[0]
+    if number == 0:
+        return suspect(recording, "depth")
     if 0 < len(points) <= len(red) + 1:
         return "a point came for each post once: one is asked for each red post in each pair of pictures"
     return ""
@@ -75,6 +79,8 @@ def misplaced(recording, points, stamps, right):
         return "every point is at (0, 0): nothing is put into point.x and point.y"
     if np.ptp(ahead) < 0.01 and np.ptp(left) < 0.01:
         return "every point is the same: it must be computed anew from each pair of pictures"
+    if said := DIRECTIONS.said_again(points, stamps):
+        return said
     if np.abs(left).max() < 1e-3 and np.abs(ahead).max() > 0.5:
         return (
             "point.y is always 0: a post is beside the middle of the picture, -(column - cx) / fx * ahead to the left"
@@ -82,9 +88,12 @@ def misplaced(recording, points, stamps, right):
     seen = np.array([[CHECKS.before_camera(tuple(each[i] for each in at), p) for p in red] for i in range(len(ahead))])
     if said := middle_off(seen, ahead, left):
         return said
-    if said := one_thing(seen, ahead, left, right):
-        return said
-    return suspect(recording, "angle")
+    return (
+        one_thing(seen, ahead, left, right)
+        or DIRECTIONS.other_line(seen, ahead, left)
+        or DIRECTIONS.of_rays(seen, ahead, left)
+        or suspect(recording, "angle")
+    )
 
 
 def middle_off(seen, ahead, left):
@@ -184,9 +193,13 @@ def never_turned(recording):
 
 def on_and_on(recording):
     """Return why the robot never stopped turning, as far as the file tells."""
-    return suspect(recording, "gyroscope", "angle") or (
-        "your heading never reached a full turn, 2 pi, so the robot turned on and on: log it in on_imu, and see at "
-        "which message it does not grow as the robot turns"
+    return (
+        suspect(recording, "gyroscope", "angle")
+        or TURNING.turned_early(recording)
+        or (
+            "your heading never reached a full turn, 2 pi, so the robot turned on and on: log it in on_imu, and see at "
+            "which message it does not grow as the robot turns"
+        )
     )
 
 
@@ -220,8 +233,10 @@ def other_count(recording, number, when):
     names = CHECKS.posts(recording)[1]
     red = sum(name.startswith("red") for name in names)
     if number == 0:
-        return "no post was remembered: self.posts is empty when the turn is over"
-    if number == len(names):
+        return "no post was remembered: self.posts is empty when the turn is over" if len(points) else ""
+    if said := suspect(recording, "same", "unturned"):
+        return said
+    if number == len(names) and not CHECKS.places_the_posts(recording, {}).passed:
         return "that is the number of all posts, of every colour"
     kinds = {kind: sum(name.startswith(kind) for name in names) for kind in ("blue", "orange", "green")}
     for kind, many in kinds.items():
@@ -235,13 +250,13 @@ def other_count(recording, number, when):
         return "that is how many were in one picture: they must be remembered over the whole turn"
     x, y, yaw = (each[before] for each in CHECKS.pose(recording, stamps))
     here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
-    if said := suspect(recording, "same", "unturned"):
-        return said
     turned = [*turned_otherwise(recording, when)] if number > red + 2 else []  # so many are hardly a coincidence
     if said := the_only_one(number, turned):
         return said
     if said := the_only_one(number, [*turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]):
         return said
+    if number == len(names):
+        return "that is the number of all posts, of every colour"
     if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
         return (
             "posts were counted again: the places of the same post differ by more than your rule for 'the same' allows"
@@ -281,6 +296,12 @@ def ways_to_count(here, points, yaw):
             f"that is the number if points more than {metres:g} m apart are two posts: depth and heading have errors"
         )
         yield words, _distinct(here, metres)
+    c, s = math.cos(yaw[0]), math.sin(yaw[0])
+    first = np.stack([here[:, 0] * c + here[:, 1] * s, here[:, 1] * c - here[:, 0] * s], axis=1)  # seen from the start
+    words = "that is the number if posts are one as soon as they have about the same"
+    yield f"{words} x, or the same y: compare the distance between them", _distinct(first, CHECKS.SAME_PLACE, np.min)
+    for axis, name in enumerate("xy"):
+        yield f"{words} {name}: compare the distance between them", _distinct(first[:, [axis]], CHECKS.SAME_PLACE)
     last = 1 + int((np.hypot(*np.diff(here, axis=0).T) > CHECKS.SAME_PLACE).sum())
     yield "that is the number if each point is compared with the last one only, and not with all known posts", last
     degrees = np.degrees(yaw)
@@ -301,76 +322,12 @@ def ways_to_count(here, points, yaw):
         yield words, cells
 
 
-def _distinct(places, apart):
-    """Return how many places are more than `apart` [m] from all before them."""
+def _distinct(places, apart, size=np.linalg.norm):
+    """Return how many places are more than `apart` [m] from all before them, by the `size` of the difference."""
     known = []
     for place in places:
-        if all(np.linalg.norm(place - other) > apart for other in known):
+        if all(size(np.abs(place - other)) > apart for other in known):
             known.append(place)
         if len(known) > CHECKS.MOST_PLACES:
             break
     return len(known)
-
-
-def other_post(recording, name):
-    """Return by which rule a red post was chosen that is not the nearest; empty if none fits."""
-    red, names = CHECKS.posts(recording, "red")
-    start = [float(each[0]) for each in CHECKS.pose(recording, np.zeros(1))]
-    away = np.linalg.norm(red - np.array(start[:2]), axis=1)
-    chosen = names.index(name)
-    points, stamps, came = CHECKS.said_points(recording)
-    first = CHECKS.counted(recording)
-    there = CHECKS.placed(CHECKS.pose(recording, stamps), points[:, 0], points[:, 1])
-    there = there[came <= (first[0] if first else recording.end_ns)]
-    order = [int(np.linalg.norm(red - place, axis=1).argmin()) for place in there if len(red)]
-    if chosen == int(away.argmax()):
-        return "it is the farthest one: the nearest has the smallest distance"
-    if order and chosen == order[0]:
-        return "it is the one that was seen first: the nearest is asked for"
-    if order and chosen == order[-1]:
-        return "it is the one that was seen last: the nearest is asked for"
-    return ""
-
-
-def wrong_stop(recording, away):
-    """Return why the robot stood at another distance [m] before the right post than it should."""
-    command = recording.signal("topics/cmd_vel/linear/x")
-    if len(command) and command.times[-1] < recording.end_ns - 2e9 and abs(command.values[-1]) > 0.02:
-        return f"no command came after {command.times[-1] / 1e9:.1f} s, and the robot obeys the last one"
-    if away < 0.2:
-        return "it drove until it touched the post: nothing stopped it"
-    if abs(away - (CHECKS.STOP - CHECKS.CAMERA_AHEAD - CHECKS.RADIUS)) < 0.06:
-        return (
-            "the middle of the robot is 1 m before the middle of the post; what the depth camera measures "
-            "counts, to the front of the post"
-        )
-    near = "too near" if away < CHECKS.STOP else "too far away"
-    return f"it is {near} by {abs(away - CHECKS.STOP):.2f} m: the depth camera must measure 1 m to the post at the end"
-
-
-def faced_nothing(recording, here, start):
-    """Return in which wrong direction the robot looked at the end."""
-    red = CHECKS.posts(recording, "red")[0]
-    nearest = red[int(np.argmin(np.linalg.norm(red - np.array(start[:2]), axis=1)))]
-    wanted = math.remainder(math.atan2(nearest[1] - start[1], nearest[0] - start[0]) - start[2], 2 * math.pi)
-    looked = math.remainder(here[2] - start[2], 2 * math.pi)
-    if abs(math.remainder(looked + wanted, 2 * math.pi)) < 0.2 < abs(wanted):
-        return "it looked to the right where the nearest red post is to the left, or the other way round: a wrong sign"
-    if abs(looked) < 0.15 < abs(wanted):
-        return "it looked where it had looked at the start, and not to the nearest red post"
-    off = math.degrees(math.remainder(looked - wanted, 2 * math.pi))
-    return (
-        f"at the end it looked {abs(off):.0f} degrees to the {'left' if off > 0 else 'right'} of the nearest red post"
-    )
-
-
-def still_moving(recording):
-    """Return why the robot was moving at the end."""
-    speed = recording.signal("topics/cmd_vel/linear/x")
-    late = speed.values[speed.times > recording.end_ns - 3e9]
-    if len(speed) and speed.times[-1] < recording.end_ns - 1e9:
-        return f"no command came after {speed.times[-1] / 1e9:.1f} s, and the robot obeys the last one"
-    signs = np.sign(late[np.abs(late) > 0.02])
-    if np.count_nonzero(np.diff(signs)) >= 3:
-        return "it drives to and fro: the gain is too high, or nothing says when it is near enough"
-    return ""

@@ -8,6 +8,7 @@ import numpy as np
 from gz_course.grader.score.suspects import suspect
 
 STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
+LAW = runpy.run_path(str(Path(__file__).with_name("law.py")))
 SETTLED = 7.0  # [s] after the start
 KEPT = 0.08  # [m] within which a distance is kept
 BEHIND = "behind the robot"
@@ -24,6 +25,12 @@ def explain(run):
         on_off,
         counted_from_ray_zero,
         other_side,
+        unchanging,
+        late,
+        opposite,
+        without_sign,
+        deaf,
+        kept_beside,
         gaps,
         added,
         mean_of_the_side,
@@ -98,6 +105,39 @@ def measures(run):
 def signs(run):
     times, bearings, ranges = scans(run)
     return STEERING["signs"](run, times, bearings, ranges) if len(times) else ""
+
+
+def point_and_rates(run):
+    """Return the nearest points of the side in all scans that were answered, the turning rates and the distances."""
+    times, bearings, ranges = scans(run)
+    heard, rates, asked = STEERING["answered"](run, times)
+    return STEERING["measured"](bearings, ranges[heard])["right"], rates, asked
+
+
+def unchanging(run):
+    return LAW["unchanging"](run.recording.signal("topics/cmd_vel/angular/z").values)
+
+
+def late(run):
+    """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
+    why = suspect(run.recording, "delay", "farthest")
+    return why or (LAW["late"](*point_and_rates(run)) if len(scans(run)[0]) else "")
+
+
+def opposite(run):
+    return LAW["opposite"](run, *point_and_rates(run)) if len(scans(run)[0]) else ""
+
+
+def without_sign(run):
+    return LAW["without_sign"](*point_and_rates(run)) if len(scans(run)[0]) else ""
+
+
+def deaf(run):
+    return LAW["deaf"](*point_and_rates(run)) if len(scans(run)[0]) else ""
+
+
+def kept_beside(run):
+    return LAW["kept_beside"](run, SETTLED)
 
 
 def slow(run):
@@ -183,7 +223,9 @@ def old_distance(run):
     if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2 or np.abs(run.along[late]).sum() < 1.0:
         return ""
     usual = float(np.median(run.distance[late]))
-    if abs(usual - run.asked[0]) > 0.12:
+    before = (run.times > SETTLED) & (run.times < run.changed)
+    kept = float(np.median(run.distance[before])) if before.any() else run.asked[0]
+    if abs(usual - run.asked[0]) > KEPT or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
         return ""
     why = suspect(run.recording, "parameter") or "the parameter is read only once"
     return (
@@ -199,6 +241,8 @@ def wrong_sign(run):
     agree = np.sign(error[clear]) == np.sign(run.sign * signal.values[clear])
     if len(agree) < 30 or agree.mean() > 0.45:
         return ""
+    if len(scans(run)[0]) and LAW["agrees"](*point_and_rates(run)) > 0.6:
+        return ""  # towards the wall by way of the heading, which counts more than the distance
     return "the robot turns away from the wall where it is too far, and towards it where it is too near: a wrong sign"
 
 

@@ -16,6 +16,7 @@ from gz_course.grader.score.true_pose import heading
 SPACING = 0.04  # [m] between two points of a wall
 BEHIND = 0.8 * np.pi  # [rad] bearing beyond which a point does not count as on the side
 TOUCH = 0.004  # [m] between the robot and a wall
+AT_ONCE = 0.4  # [s] in which a new parameter takes effect
 WIDE = 0.3  # [m] error up to which the robot makes progress along its wall
 # [m] chassis and wheels: from x, to x, from y, to y
 PARTS = ((-0.18, 0.12, -0.1, 0.1), (-0.05, 0.05, -0.14, 0.14))
@@ -32,6 +33,7 @@ class Run:
         self.step = np.diff(self.times, append=self.times[-1:])
         given = json.loads(recording.properties("run")["trial_parameters"])["parameters"]
         self.side, self.limit = given["side"], given["speed_limit"]
+        self.limits = recording.signal("parameters/speed_limit")  # [m/s] from each time on
         self.sign = 1.0 if self.side == "left" else -1.0
         asked = recording.signal("parameters/distance")
         self.asked = asked.values
@@ -68,6 +70,14 @@ class Run:
                         across = (wy - cy) * np.cos(yaw) - (wx - cx) * np.sin(yaw)
                         gap = np.minimum(gap, _outside(along, across, -length, length, -width, width))
         return gap
+
+    def allowed(self, times):
+        """Return the speed limit [m/s] at some times [s]: while it changes, the larger of the two."""
+        since, values = self.limits.times / 1e9, self.limits.values
+        if not len(values):
+            return np.full(len(times), self.limit)
+        now, before = (np.maximum(np.searchsorted(since, times - ago, side="right") - 1, 0) for ago in (0, AT_ONCE))
+        return np.maximum(values[now], values[before])
 
     def within(self, start, end, tolerance):
         """Return which share of the way between two times [s] was driven within `tolerance` [m], and the way [m].
@@ -149,12 +159,13 @@ def follows(recording, parameters):
     """Check how far the robot drove forward with its wall beside it."""
     run = Run(recording)
     near = (np.abs(run.error) <= WIDE) & (run.speed > 0)
-    way, least = float(run.along[near].sum()), parameters["share"] * run.limit * run.times[-1]
+    way, could = float(run.along[near].sum()), float((run.allowed(run.times) * run.step).sum())
+    least = parameters["share"] * could
     return _finding(
         run,
         way >= least,
         f"at least {least:.1f} m forward along the wall on the {run.side}",
-        f"{way:.1f} m; with speed_limit = {run.limit:g} m/s it could be {run.limit * run.times[-1]:.1f} m",
+        f"{way:.1f} m; with speed_limit = {run.limit:g} m/s it could be {could:.1f} m",
     )
 
 
@@ -169,10 +180,12 @@ def touches_nothing(recording, parameters):
 def keeps_limits(recording, parameters):
     """Check every command that arrived."""
     run, most = Run(recording), parameters["turning"]
-    expected = f"linear.x from 0 to {run.limit:g} m/s (speed_limit), angular.z from -{most:g} to {most:g} rad/s"
+    new = f", and {run.limits.values[-1]:g} m/s from {run.limits.times[-1] / 1e9:g} s on" if len(run.limits) > 1 else ""
+    expected = f"linear.x from 0 to {run.limit:g} m/s (speed_limit{new}), angular.z from -{most:g} to {most:g} rad/s"
     for name, low, high, unit in (("linear/x", 0.0, run.limit, "m/s"), ("angular/z", -most, most, "rad/s")):
         signal = recording.signal(f"topics/cmd_vel/{name}")
-        beyond = (signal.values > high + 1e-3) | (signal.values < low - 1e-3)
+        highest = run.allowed(signal.times / 1e9) if name == "linear/x" else high
+        beyond = (signal.values > highest + 1e-3) | (signal.values < low - 1e-3)
         if beyond.any():
             wrong, at = signal.values[beyond], signal.times[beyond][0] / 1e9
             worst = wrong[np.argmax(np.abs(wrong))]
@@ -180,7 +193,14 @@ def keeps_limits(recording, parameters):
                 f"{name.replace('/', '.')} was beyond in {beyond.sum()} of {len(beyond)} commands, first at {at:.1f} s"
             )
             seen = f"{said}; the worst was {worst:.2f} {unit}"
-            why = limits_missed(name.replace("/", "."), signal.values, low, high)
+            old = name == "linear/x" and not ((signal.values > high + 1e-3) | (signal.values < low - 1e-3)).any()
+            why = (
+                f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at "
+                f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: the parameter is "
+                "read only once"
+                if old
+                else limits_missed(name.replace("/", "."), signal.values, low, high)
+            )
             return Finding(False, expected, seen, round(float(at), 2), explanation=why)
     return Finding(True, expected, "every command was")
 

@@ -195,3 +195,74 @@ def test_points_beside_the_posts_are_explained_by_the_line_that_takes_the_height
     hall = Hall(lambda ahead, left: (ahead, left - 0.17 * ahead))
     hall.suspects = [{"line": 9, "about": "picture", "said": "the height is no width"}]
     assert hall.found("places_the_posts").explanation == "line 9: the height is no width"
+
+
+def test_another_line_through_the_columns_is_named():
+    hall = Hall(lambda a, b: (a, (117 - 80) / 80 * a + 117 / 80 * b * a / (a + CHECKS["RADIUS"])))
+    finding = hall.found("places_the_posts")
+    assert not finding.passed
+    assert "-(column - 117 (fx = k[0])) / 80 (cx = k[2]) * ahead" in finding.explanation, finding
+
+
+def test_depths_taken_for_rays_are_not_taken_for_wrong_times():
+    angles = np.tile([0.1, 0.3, -0.4, 0.45], 6)
+    there = np.stack([2 + CHECKS["RADIUS"] + 0 * angles, (2 + CHECKS["RADIUS"]) * np.tan(angles)], axis=1)[:, None]
+    said = WORDS["DIRECTIONS"].of_rays(there, 2 * np.cos(angles), 2 * np.sin(angles))
+    assert "multiplied by the cosine of the bearing" in said
+    assert WORDS["DIRECTIONS"].of_rays(there, 2 + 0 * angles, 2 * np.tan(angles)) == ""
+
+
+def test_points_of_earlier_pictures():
+    hall = Hall()
+    for name in ("point/x", "point/y", "point/z", "header/stamp", "count"):
+        times, values = hall.signals[f"topics/red_post/{name}"]
+        later = np.asarray(times) + 2.0
+        again = later if name == "header/stamp" else values
+        hall.signals[f"topics/red_post/{name}"] = (np.append(times, later), np.append(values, again))
+    finding = hall.found("places_the_posts")
+    assert not finding.passed and "empty the list for each picture" in finding.explanation, finding
+
+
+def test_stamps_of_no_picture_and_posts_that_are_left_out():
+    hall = Hall()
+    times, values = hall.signals["topics/red_post/header/stamp"]
+    hall.signals["topics/red_post/header/stamp"] = (times, np.asarray(values) + 0.01)
+    assert "header.stamp must be that of the picture" in hall.found("places_the_posts").explanation
+    one = Hall(sees=lambda names: names[:1])
+    there = np.array([POSTS["red_1"]] * 2)
+    stamps = np.array([200_000_000, 400_000_000])
+    POSTS["red_9"] = (1.9, -0.6)
+    try:
+        assert "not each of them got a point" in WORDS["DIRECTIONS"].one_a_picture(one, there, stamps)
+        both = np.array([POSTS["red_1"], POSTS["red_9"]] * 2)
+        assert WORDS["DIRECTIONS"].one_a_picture(one, both, np.repeat(stamps, 2)) == ""
+    finally:
+        del POSTS["red_9"]
+
+
+def test_the_number_of_blue_posts_is_said_of_points_at_blue_posts_only():
+    assert "blue" not in Hall(count=1).found("counts_the_posts").explanation
+
+
+def test_a_robot_that_turns_while_the_bias_is_measured():
+    hall = Hall(count=None)
+    times = hall.signals["truth/robot/yaw"][0]
+    hall.signals["truth/robot/yaw"] = (times, 0.8 * times)
+    assert "degrees in the first 0.9 s already" in hall.found("turns_once").explanation
+
+
+def test_rates_times_a_time_that_grows():
+    times = np.arange(0.0, 4.0, 0.04)
+    rates = np.where(times > 1.0, 0.8, 0.0)
+    full = times[np.cumsum(rates * times) >= 2 * np.pi][0]
+    assert "time since one and the same message" in WORDS["TURNING"].since_the_first(times, rates, full * 1e9)
+    assert WORDS["TURNING"].since_the_first(times, rates, 9e9) == ""
+
+
+def test_a_robot_that_backs_away_from_the_post():
+    hall = Hall()
+    times = hall.signals["truth/robot/x"][0]
+    hall.signals["truth/robot/x"] = (times, np.where(times > 12, -0.1 * (times - 12), 0))
+    hall.signals["truth/robot/distance"] = (times, np.where(times > 12, 0.1 * (times - 12), 0))
+    hall.signals["truth/robot/linear_x"] = (times, np.where(times > 12, -0.1, 0))
+    assert "it drives backwards" in hall.found("stops_before_the_post").explanation

@@ -11,6 +11,7 @@ from gz_course.grader.record.reading import Signal
 
 FOLDER = Path(__file__).parents[2] / "exercises/09_closed_loop"
 STEERING = runpy.run_path(str(FOLDER / "steering.py"))
+LAW = runpy.run_path(str(FOLDER / "law.py"))
 WALL = runpy.run_path(str(FOLDER / "wall.py"))
 
 BEARINGS = np.linspace(-np.pi, np.pi, 180, endpoint=False)
@@ -94,3 +95,62 @@ def test_few_scans_say_nothing(seen):
 )
 def test_commands_beyond_their_limits_are_described(values, words):
     assert words in WALL["limits_missed"]("linear.x", np.array(values), 0.0, 0.5)
+
+
+def law(seen):
+    """The nearest points of a run drawn at random, in which they change slowly, and the distance asked for."""
+    draw = np.random.default_rng(4)
+    steps = draw.normal(0, 1, (SCANS, 2))
+    for i in range(1, SCANS):
+        steps[i] = 0.9 * steps[i - 1] + 0.4 * steps[i]
+    return np.array([0.6, np.pi / 2]) + 0.25 * steps, np.full(SCANS, 0.6)
+
+
+def errors(point, asked):
+    return np.clip(point[:, 0] - asked, -0.35, 0.35), point[:, 1] - np.pi / 2
+
+
+def test_the_law_of_a_right_follower_has_nothing_wrong(seen):
+    point, asked = law(seen)
+    error, away = errors(point, asked)
+    rates = np.clip(4 * error + 2 * away, -1.5, 1.5)
+    assert LAW["late"](point, rates, asked) == LAW["deaf"](point, rates, asked) == ""
+    assert LAW["without_sign"](point, rates, asked) == LAW["opposite"](run(seen[0], rates), point, rates, asked) == ""
+    assert LAW["unchanging"](rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
+
+
+def test_wrong_laws_are_named(seen):
+    point, asked = law(seen)
+    error, away = errors(point, asked)
+    right = 4 * error + 2 * away
+    smooth = np.array([right[max(0, i - 19) : i + 1].mean() for i in range(SCANS)])
+    assert "answers an average of the last scans" in LAW["late"](point, smooth, asked)
+    assert "hardly answers the distance" in LAW["deaf"](point, 0.2 * error + 2 * away, asked)
+    assert "not its sign" in LAW["without_sign"](point, np.clip(4 * np.abs(error) + 2 * away, -1.5, 1.5), asked)
+    opposite = LAW["opposite"](run(seen[0], -right, "right"), point, np.clip(-right, -1.5, 1.5), asked)
+    assert "angular.z has the wrong sign" in opposite and "'right'" in opposite
+    assert "the same" not in LAW["unchanging"](right) and "in nearly every command" in LAW["unchanging"](
+        0 * right + 1.5
+    )
+
+
+@pytest.mark.parametrize(
+    ("kept", "words"),
+    [
+        (lambda wanted: wanted, ""),
+        (lambda wanted: wanted + 0.17, "keeps 0.17 m more"),
+        (lambda wanted: 0.6 * wanted, "0.60 times"),
+    ],
+)
+def test_another_distance_that_is_kept_is_named(kept, words):
+    times = np.arange(0.0, 30.0, 0.05)
+    wanted = np.where(times < 15.0, 0.6, 0.9)
+    run = SimpleNamespace(times=times, changed=15.0, wanted=wanted, error=kept(wanted) - wanted, along=0 * times + 0.02)
+    said = LAW["kept_beside"](run, 7.0)
+    assert words in said and bool(words) == bool(said)
+
+
+def test_a_speed_limit_that_changes_is_the_limit_of_what_comes_then():
+    limits = Signal(np.array([0, 10_000_000_000]), np.array([0.5, 0.3]))
+    allowed = WALL["Run"].allowed(SimpleNamespace(limits=limits, limit=0.5), np.array([5.0, 10.2, 11.0]))
+    assert allowed.tolist() == [0.5, 0.5, 0.3]

@@ -17,11 +17,14 @@ from gz_course.grader.lint.slips import (
     everyday,
     exact_sums,
     late_binding,
+    limits,
     mixed_clocks,
     names,
     no_effect,
+    no_time_passed,
     not_what_they_seem,
     parameters,
+    rotations,
     scan_callbacks,
     searches,
     sequences,
@@ -42,7 +45,8 @@ ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
-    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
+    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
+    rotations.LOOKS, limits.LOOKS,
 )  # fmt: skip
 
 

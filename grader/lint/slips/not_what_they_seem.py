@@ -7,7 +7,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions
+from gz_course.grader.lint.syntax import Place, assigned, functions, last_name
 
 ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
 WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
@@ -82,14 +82,10 @@ PARTS = frozenset(
 def identity(tree: ast.AST) -> Iterator[Place]:
     """Find `is` between values that may be equal without being the same object."""
     constants = {
-        target.id
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Assign)
-        and isinstance(node.value, ast.Constant)
-        and type(node.value.value) in (str, int, float)
-        for target in node.targets
-        if isinstance(target, ast.Name)
-    }
+        last_name(target)
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Constant) and type(value.value) in (str, int, float)
+    } - {""}
     for node in ast.walk(tree):
         if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Is | ast.IsNot):
             continue
@@ -100,7 +96,7 @@ def identity(tree: ast.AST) -> Iterator[Place]:
             continue
         for side in sides:
             literal = isinstance(side, ast.Constant) and type(side.value) in (str, int, float)
-            if literal or (isinstance(side, ast.Name) and side.id in constants):
+            if literal or last_name(side) in constants:
                 word, sign = ("is", "==") if isinstance(node.ops[0], ast.Is) else ("is not", "!=")
                 yield (
                     node.lineno,

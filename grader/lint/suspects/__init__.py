@@ -13,6 +13,8 @@ from gz_course.grader.lint.suspects import (
     aliases,
     bearings,
     bias_use,
+    bias_while_turning,
+    farthest,
     feedback,
     gyroscopes,
     headings,
@@ -20,20 +22,26 @@ from gz_course.grader.lint.suspects import (
     patrols,
     pictures,
     rays,
+    same_places,
+    smoothing,
 )
 from gz_course.grader.lint.syntax import Places, places_in
 
 LOOKS = (
     *headings.LOOKS,
+    *bias_while_turning.LOOKS,
     *gyroscopes.LOOKS,
     *bias_use.LOOKS,
     *rays.LOOKS,
     *known_places.LOOKS,
+    *same_places.LOOKS,
     *patrols.LOOKS,
     *pictures.LOOKS,
     *aliases.LOOKS,
     *bearings.LOOKS,
     *feedback.LOOKS,
+    *smoothing.LOOKS,
+    *farthest.LOOKS,
 )
 MOST = 12  # suspects kept
 

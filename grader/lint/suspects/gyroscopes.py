@@ -94,8 +94,8 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
             whole = expanded(value, values)
             names = {ast.unparse(each) for each in ast.walk(whole) if isinstance(each, ast.Name | ast.Attribute)}
             others = [each for each in names if each not in constants and TIMES.search(each)]
-            if others or not _adds(node, name):
-                continue
+            if others or not _adds(node, name) or f"{name} / " in ast.unparse(tree):
+                continue  # a sum that is divided is on its way to be a mean
             factors = [each for each in names if each in constants and each != name and "bias" not in each]
             numbers = [
                 each.value for each in ast.walk(whole) if isinstance(each, ast.Constant) and each.value not in (0, 1)

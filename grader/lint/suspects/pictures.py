@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
@@ -85,4 +85,21 @@ def middles(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (shapes, indices, middles)
+def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the mean of a rectangle of a picture of depths, which a single inf makes inf."""
+    arrays = _arrays(tree)
+    for call, name in calls(tree):
+        given = call.args[0] if call.args else getattr(call.func, "value", None)
+        if name not in ("mean", "average") or not isinstance(given, ast.Subscript):
+            continue
+        parts = given.slice.elts if isinstance(given.slice, ast.Tuple) else [given.slice]
+        if ast.unparse(given.value) in arrays and any(isinstance(each, ast.Slice) for each in parts):
+            yield (
+                call.lineno,
+                "depth",
+                f"{ast.unparse(call)[:70]} is inf as soon as one of these pixels is inf, where nothing is near enough: "
+                "take the red pixels only, and leave out what is not finite",
+            )
+
+
+LOOKS = (shapes, indices, middles, means_of_depths)

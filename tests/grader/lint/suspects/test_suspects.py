@@ -20,7 +20,7 @@ class Robot:
         now = message.header.stamp.sec + message.header.stamp.nanosec / 1e9
         rate = message.angular_velocity.z
         bias = sum(self.rates) / len(self.rates)
-        self.rates.append(rate)
+        if now < 1.0: self.rates.append(rate)
         dt = now - self.last
         self.heading += (rate - bias) * dt
         self.last = now

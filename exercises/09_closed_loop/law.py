@@ -1,0 +1,146 @@
+"""By which law the commands follow the scans, fitted to the run: too late, with a wrong sign, with something added.
+
+`misconceptions.py` asks for it.
+"""
+
+import numpy as np
+
+LIMIT = 1.5  # [rad/s]
+NEAR = 0.35  # [m] error up to which the approach grows with the error in most programs
+FEWEST = 60  # scans
+WINDOWS, SHARES = (8, 12, 20, 30, 40), (0.15, 0.1, 0.07, 0.05, 0.03)  # of moving averages: scans, weight of the newest
+
+
+def opposite(run, point, rates, asked):
+    """Return whether the robot turns the other way than it must wherever that is clear; empty if not."""
+    wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
+    clear = (np.abs(wanted) > 0.6) & (np.abs(rates) > 0.1)
+    if clear.sum() < FEWEST or np.mean(np.sign(rates[clear]) == np.sign(wanted[clear])) > 0.05:
+        return ""
+    return (
+        "angular.z has the wrong sign: where the robot must turn to the left it turns to the right, and the other way "
+        f"round; here side is {run.side!r}, and a positive angular.z turns to the left on either side, so its sign "
+        "must change with the side"
+    )
+
+
+def unchanging(values):
+    """Return whether nearly all commands [rad/s] are the same, whatever the lidar saw; empty if not."""
+    found, counts = np.unique(np.round(values, 3), return_counts=True)
+    if len(values) < FEWEST or counts.max() < 0.95 * len(values):
+        return ""
+    return (
+        f"angular.z is {found[counts.argmax()]:.2f} rad/s in nearly every command, whatever the lidar sees: it is made "
+        "of one scan, such as the first, or of something that does not change"
+    )
+
+
+def agrees(point, rates, asked):
+    """Return in which share of the clear cases the robot turns the way it must."""
+    wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
+    clear = (np.abs(wanted) > 0.6) & (np.abs(rates) > 0.1)
+    return float(np.mean(np.sign(rates[clear]) == np.sign(wanted[clear]))) if clear.any() else 0.0
+
+
+def kept_beside(run, settled):
+    """Return by how much the kept distance differs from the one asked for, both times; empty if it does not."""
+    off, ratios = [], []
+    for chosen in ((run.times > settled) & (run.times < run.changed), run.times > run.changed + 6.0):
+        if chosen.sum() < FEWEST or np.abs(run.along[chosen]).sum() < 1.0:
+            return ""
+        low, middle, high = np.percentile(run.error[chosen], (25, 50, 75))
+        if not np.isfinite(high) or high - low > 0.16:
+            return ""
+        off.append(float(middle))
+        ratios.append(1 + float(middle) / float(run.wanted[chosen][-1]))
+    if min(np.abs(off)) < 0.1 or max(np.abs(off)) > 0.6 or off[0] * off[1] < 0:
+        return ""
+    usual, ratio = float(np.mean(off)), float(np.mean(ratios))
+    if abs(off[0] - off[1]) <= 0.08:
+        more, made = ("more", "smaller") if usual > 0 else ("less", "larger")
+        return (
+            f"the robot always keeps {abs(usual):.2f} m {more} than asked for, before the change and after it: your "
+            f"node makes the distance {made} than the nearest range, such as by a length of the robot; the distance "
+            "counts from the lidar to the wall"
+        )
+    if abs(ratios[0] - ratios[1]) > 0.12:
+        return ""
+    return (
+        f"the robot always keeps about {ratio:.2f} times the distance that is asked for, before the change and after "
+        "it: a factor is wrong, or the range is measured along a slanted ray and not to the nearest point"
+    )
+
+
+def deaf(point, rates, asked):
+    """Return whether the commands hardly depend on the distance where that is nearly right; empty if they do."""
+    error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
+    clear = (np.abs(error) < 0.25) & (np.abs(rates) < 0.95 * LIMIT)
+    if clear.sum() < FEWEST or min(error[clear].std(), away[clear].std()) < 0.03:
+        return ""
+    terms = np.stack([error[clear], away[clear]], axis=1)
+    gains = np.linalg.lstsq(np.hstack([terms, np.ones((len(terms), 1))]), rates[clear], rcond=None)[0]
+    if _explained(terms, rates[clear]) < 0.7 or not -0.2 < gains[0] < 0.8 or gains[1] < 0.8:
+        return ""
+    return (
+        f"angular.z hardly answers the distance, by {gains[0]:.1f} rad/s for each metre of error, where that is less "
+        "than 0.25 m: the gain of the distance is far too low, or small errors are left out (a dead band)"
+    )
+
+
+def without_sign(point, rates, asked):
+    """Return whether the size of the error counts and not its sign; empty if not."""
+    error, away = np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2
+    clear = np.abs(rates) < 0.95 * LIMIT
+    if clear.sum() < FEWEST or rates[clear].var() < 0.01:
+        return ""
+    if min((error[clear] < -0.05).sum(), (error[clear] > 0.05).sum()) < 15:
+        return ""
+    signed = _explained(np.stack([error, away], axis=1)[clear], rates[clear])
+    size = _explained(np.stack([np.abs(error), away], axis=1)[clear], rates[clear])
+    if size < 0.75 or 1 - size > 0.4 * (1 - signed):
+        return ""
+    return (
+        "angular.z answers how large the error of the distance is, and not its sign: the robot turns the same way "
+        "whether it is too near or too far (abs(), or a square)"
+    )
+
+
+def late(point, rates, asked):
+    """Return how old what the commands answer is, if they follow a moving average of the scans; empty if not."""
+    terms = np.stack([np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2], axis=1)
+    clear = np.abs(rates) < 0.95 * LIMIT
+    if clear.sum() < FEWEST or rates[clear].var() < 1e-3:
+        return ""
+    now = _explained(terms[clear], rates[clear])
+    found = [(_explained(_mean(terms, number)[clear], rates[clear]), number / 2) for number in WINDOWS]
+    found += [(_explained(_weighed(terms, share)[clear], rates[clear]), 1 / share) for share in SHARES]
+    best, scans = max(found)
+    if best < 0.8 or 1 - best > 0.4 * (1 - now):
+        return ""
+    return (
+        f"angular.z answers an average of the last scans, which is about {scans:.0f} scans old, not what the lidar "
+        "sees now: such smoothing delays the feedback, so the robot turns too late, and swings; use each scan as it "
+        "comes"
+    )
+
+
+def _explained(terms, rates):
+    terms = np.hstack([terms, np.ones((len(terms), 1))])
+    left = rates - terms @ np.linalg.lstsq(terms, rates, rcond=None)[0]
+    return float(1 - left.var() / max(rates.var(), 1e-9))
+
+
+def _mean(terms, number):
+    """Return the mean of each row and those before it, `number` rows at most."""
+    sums = np.cumsum(np.vstack([np.zeros((1, terms.shape[1])), terms]), axis=0)
+    end = np.arange(1, len(terms) + 1)
+    start = np.maximum(end - number, 0)
+    return (sums[end] - sums[start]) / (end - start)[:, None]
+
+
+def _weighed(terms, share):
+    """Return the moving average in which each new row counts for a share."""
+    found = terms.copy()
+    for i in range(1, len(found)):
+        found[i] = found[i - 1] + share * (terms[i] - found[i - 1])
+    return found

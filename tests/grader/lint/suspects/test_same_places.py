@@ -1,0 +1,81 @@
+"""Rules by which two posts are the same for a wrong reason, and choices of another post than the nearest."""
+
+import pytest
+
+from gz_course.grader.lint.suspects import suspects
+
+FILE = """\
+from math import cos, hypot, sin
+
+SAME = {limit}
+
+
+class Node:
+    def remember(self, ahead, left):
+        x = ahead * cos(self.heading) - left * sin(self.heading)
+        y = ahead * sin(self.heading) + left * cos(self.heading)
+        {body}
+
+    def drive(self):
+        self.counts.publish(Int32(data=len(self.posts)))
+        self.target = {target}
+
+    def on_pictures(self):
+        {pictures}
+"""
+RIGHT = {
+    "limit": "0.5",
+    "body": "if all(hypot(x - a, y - b) > SAME for a, b in self.posts):\n            self.posts.append((x, y))",
+    "target": "min(self.posts, key=lambda post: hypot(*post))",
+    "pictures": "self.seen = []",
+}
+
+
+def found(**changed):
+    text = FILE.format(**RIGHT | changed)
+    return [(each["about"], each["said"]) for each in suspects(text.encode())]
+
+
+@pytest.mark.parametrize(
+    "test",
+    [
+        "all(abs(x - a) > SAME or abs(y - b) > SAME for a, b in self.posts)",
+        "not any(abs(x - a) < SAME and abs(y - b) < SAME for a, b in self.posts)",
+        "all(hypot(x - p[0], y - p[1]) > SAME for p in self.posts)",
+        "all((np.abs(np.array(p) - (x, y)) > SAME).any() for p in self.posts)",
+    ],
+)
+def test_right_rules(test):
+    assert found(body=f"if {test}:\n            self.posts.append((x, y))") == []
+
+
+@pytest.mark.parametrize(
+    ("test", "words"),
+    [
+        ("all(abs(x - a) > SAME and abs(y - b) > SAME for a, b in self.posts)", "their x or their y"),
+        ("not any(abs(x - a) < SAME or SAME > abs(y - b) for a, b in self.posts)", "their x or their y"),
+        ("all((np.abs(np.array(p) - (x, y)) > SAME).all() for p in self.posts)", "their x or their y"),
+        ("all(abs(x - a) > SAME for a, b in self.posts)", "compares one coordinate only"),
+        ("not [p for p in self.posts if abs(p[1] - y) < SAME]", "compares one coordinate only"),
+    ],
+)
+def test_coordinates_that_are_compared_each_for_itself(test, words):
+    ((about, said),) = found(body=f"if {test}:\n            self.posts.append((x, y))")
+    assert about == "same" and words in said
+
+
+@pytest.mark.parametrize(("limit", "words"), [("50", "for one"), ("0.01", "one post for several")])
+def test_limits_that_are_no_metres(limit, words):
+    ((about, said),) = found(limit=limit)
+    assert about == "same" and f"with {float(limit):g} m" in said and words in said
+
+
+@pytest.mark.parametrize("target", ["min(self.posts)", "sorted(self.posts)[0]", "min(self.posts, key=lambda p: p[0])"])
+def test_the_smallest_x_is_not_the_nearest(target):
+    ((about, said),) = found(target=target)
+    assert about == "nearest" and "compares the first numbers, x" in said
+
+
+def test_a_list_that_is_emptied_and_counted():
+    ((about, said),) = found(pictures="self.posts = []")
+    assert about == "same" and "emptied here again and again" in said

@@ -1,0 +1,57 @@
+"""Averages over many scans by which a node steers are found; short ones are not."""
+
+import pytest
+
+from gz_course.grader.lint.suspects import suspects
+
+FILE = """\
+from collections import deque
+
+from sensor_msgs.msg import LaserScan
+
+KEPT = {kept}
+
+
+class Follower:
+    def __init__(self):
+        self.last = deque(maxlen=KEPT)
+        self.smooth = 0.0
+
+    def on_scan(self, scan):
+        nearest = min(scan.ranges)
+        {body}
+        command.angular.z = 2.0 * (distance - 0.6)
+"""
+MEAN = "self.last.append(nearest)\n        distance = sum(self.last) / len(self.last)"
+POPPED = "self.last.append(nearest)\n        if len(self.last) > 30:\n            self.last.pop(0)\n        "
+
+
+@pytest.mark.parametrize(
+    ("body", "kept", "words"),
+    [
+        (MEAN, 20, "of the last 20 values"),
+        (MEAN, 3, ""),
+        (POPPED + "distance = np.mean(self.last)", 1, "of the last 30 values"),
+        ("self.smooth = 0.95 * self.smooth + 0.05 * nearest\n        distance = self.smooth", 1, "comes late"),
+        ("self.smooth = 0.5 * self.smooth + 0.5 * nearest\n        distance = self.smooth", 1, ""),
+        ("self.smooth += 0.04 * (nearest - self.smooth)\n        distance = self.smooth", 1, "comes late"),
+        ("self.smooth += 0.04 * nearest\n        distance = self.smooth", 1, ""),
+    ],
+)
+def test_averages_over_time(body, kept, words):
+    said = [each["said"] for each in suspects(FILE.format(body=body, kept=kept).encode()) if each["about"] == "delay"]
+    assert len(said) == bool(words) and all(words in each for each in said), said
+
+
+@pytest.mark.parametrize(
+    ("body", "found"),
+    [
+        ("side = [r for r in scan.ranges if r < 5]\n        distance = max(side)", True),
+        ("distance = np.max(scan.ranges[10:20])", True),
+        ("side = [r for r in scan.ranges if r < 5]\n        distance = min(side) if max(side) < 9 else 9", False),
+        ("distance = max(0.1, nearest)", False),
+    ],
+)
+def test_the_farthest_range(body, found):
+    text = FILE.format(body=body, kept=3).replace("nearest = min(scan.ranges)", "nearest = scan.ranges[90]")
+    assert [each["about"] for each in suspects(text.encode()) if each["about"] == "farthest"] == ["farthest"] * found
