@@ -189,6 +189,11 @@ def all_alive(recording, parameters):
     if ended:
         return Finding(False, expected, f"{ended[0]['program']} had ended with exit code {ended[0]['code']}")
     if not _ends(recording, "publisher", topic=COMMANDS):
+        others = [each for each in _ends(recording, "publisher") if "Twist" in each["type"].rpartition("/")[2]]
+        if others:
+            measured = f"{others[0]['node']} publishes its commands on {others[0]['topic']}, not on {COMMANDS}"
+            why = f"the topic of the commands in ROS is {COMMANDS}; bridge.yaml joins it with that of Gazebo"
+            return Finding(False, expected, measured, explanation=why)
         return Finding(False, expected, "no node publishes /cmd_vel: the driver never ran")
     if not _ends(recording, "subscription", LASER_SCAN):
         return Finding(False, expected, "no node takes scans: the ranger never ran")
@@ -223,6 +228,11 @@ def parks(recording, parameters):
     qx, qy, qz, qw = wall.quaternions[0]
     normal = np.array([1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qz * qw)])
     places = np.stack([x.values, y.values], axis=1)
+    world = Path(str(trial.get("parameters", {}).get("world", "bay.sdf"))).stem
+    ran = [Path(str(each["world"])).stem for each in launch_facts(recording).get("simulators", []) if each["ran"]]
+    if ran and world not in ran:
+        why = f"the world that world:=... names is to be simulated, here {world}.sdf: LaunchConfiguration('world')"
+        return Finding(False, expected, f"the world {ran[0]} was simulated, not {world}", explanation=why)
     away = np.abs((places - wall.positions[0][:2]) @ normal) - 0.05
     deaf = _why_deaf(recording)
     why = deaf or _why_there(recording, x.times, away, wanted)

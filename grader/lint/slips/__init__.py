@@ -19,6 +19,7 @@ from gz_course.grader.lint.slips import (
     late_binding,
     mixed_clocks,
     names,
+    never_set,
     no_effect,
     not_what_they_seem,
     parameters,
@@ -39,7 +40,8 @@ from gz_course.grader.lint.syntax import Places, places_in
 MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
-    everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
+    everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, never_set.LOOKS,
+    unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,

@@ -14,9 +14,11 @@ from gz_course.grader.lint.suspects import (
     bearings,
     bias_use,
     feedback,
+    goals,
     gyroscopes,
     headings,
     known_places,
+    old_values,
     patrols,
     pictures,
     rays,
@@ -34,6 +36,8 @@ LOOKS = (
     *aliases.LOOKS,
     *bearings.LOOKS,
     *feedback.LOOKS,
+    *goals.LOOKS,
+    *old_values.LOOKS,
 )
 MOST = 12  # suspects kept
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.syntax import called
@@ -106,4 +107,23 @@ def _lines_of_init(tree: ast.AST) -> set[int]:
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
-LOOKS = (loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on)
+def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop to a place that ends, or a place that counts as reached, as soon as x or y alone is near."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.If | ast.While) or not isinstance(node.test, ast.BoolOp):
+            continue
+        parts = [ast.unparse(each) for each in node.test.values if isinstance(each, ast.Compare)]
+        axes = [side for side in ("x", "y") if any(re.search(rf"abs\(.*{side}\b", part) for part in parts)]
+        loop, above = isinstance(node, ast.While), all(">" in part for part in parts)
+        below = all("<" in part for part in parts)
+        ends = isinstance(node.test.op, ast.And) and above if loop else isinstance(node.test.op, ast.Or) and below
+        if len(parts) == 2 and len(axes) == 2 and ends:
+            yield (
+                node.lineno,
+                "one_axis",
+                f"`{ast.unparse(node.test)[:90]}` is {'over' if loop else 'true'} as soon as x or y alone is near: "
+                "what counts is the distance, math.hypot(dx, dy)",
+            )
+
+
+LOOKS = (loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on, one_axis_is_enough)
