@@ -60,4 +60,7 @@ def of_a_later_goal(run):
     if said := suspect(run.recording, "anew"):
         return f"What is kept of one goal spoils the next one: {said}"
     words = headed(run, "again") or headed(run, "cancelled")
-    return f"The robot went elsewhere: {words}" if words else ""
+    if words:
+        return f"The robot went elsewhere: {words}"
+    said = suspect(run.recording, "one_side")
+    return f"The robot drives on although it does not face the waypoint: {said}" if said else ""

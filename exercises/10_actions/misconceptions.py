@@ -20,7 +20,7 @@ def went_elsewhere(run, goal, until):
         return ""
     if np.hypot(*(way - way[0]).T).max() < MOVED:
         return stood(run, chosen)
-    if said := suspect(run.recording, "heading", "angle"):
+    if said := suspect(run.recording, "summed_place", "heading", "angle"):
         return said
     if words := other_places(way, points):
         return f"The robot went elsewhere: {words}"

@@ -199,7 +199,9 @@ def feedback(recording, parameters):
     if run.nearest("patrol", end)[0] < len(points):
         return gated(expected, "the patrol was not driven to its end")
     if not said:
-        return wrong("no feedback came", end, "Your server never calls publish_feedback")
+        return wrong(
+            "no feedback came", end, suspect(recording, "feedback") or "Your server never calls publish_feedback"
+        )
     if all(each["at"] > end - 0.3 for each in said):
         return wrong("it came at the end only", end, "Your feedback comes only when the patrol is over")
     times = [start, *(each["at"] for each in said), end]
@@ -249,17 +251,22 @@ def other_distance(run, said, points):
     return ""
 
 
+def still_driving(run, goal):
+    """Return that a patrol goes on although the robot is at the last waypoint; empty if that is not so."""
+    said = run.all("feedback", goal)
+    if not said or said[-1]["at"] < run.end - STILL or not 0 <= said[-1]["distance"] < NEAR:
+        return ""
+    return (
+        f"The robot is at the last waypoint, but the loop in execute goes on: its distance is still "
+        f"{said[-1]['distance']:.3f} m, and the condition of the loop asks for something else than within 0.15 m"
+    )
+
+
 def endless(run):
     """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
     if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
         return ""
-    said = run.all("feedback", "patrol")
-    if said and said[-1]["at"] > run.end - STILL and said[-1]["distance"] < NEAR:
-        return (
-            f"The robot is at the last waypoint, but the loop in execute goes on: its distance is still "
-            f"{said[-1]['distance']:.2f} m, and the condition of the loop asks for something else than within 0.15 m"
-        )
-    return (
+    return still_driving(run, "patrol") or (
         "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
         "Patrol.Result (a function without return returns None, which is no result)"
     )
@@ -312,7 +319,8 @@ def busy(recording, parameters):
     found = run.one("result", "again")
     if found is None:
         measured = "the patrol after the cancelled one did not end"
-        return Finding(False, expected, measured, run.end, explanation=LATER.of_a_later_goal(run))
+        why = still_driving(run, "again") or LATER.of_a_later_goal(run)
+        return Finding(False, expected, measured, run.end, explanation=why)
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"
     why = "" if passed else LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "again")

@@ -15,6 +15,7 @@ from gz_course.grader.score.suspects import suspect
 
 GAP = 1.2  # [m]
 SELDOM = 0.4  # [s] between the commands of a follower
+ASIDE = 0.2  # [rad] that a robot may be turned at its start
 ROW = 0.15  # [m] that a robot may start beside its place
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
 AT_REST = 0.3  # [m] that the gap may be off in the end
@@ -90,6 +91,11 @@ def in_a_row(recording, parameters):
         if math.hypot(x + GAP * number, y) > ROW:
             measured = f"{name} began at x {x:.2f} m, y {y:.2f} m, not at x {-GAP * number:.2f} m"
             return Finding(False, expected, measured, explanation=_misplaced(recording, names))
+        yaw = float(recording.signal(f"truth/{name}/yaw").values[0])
+        if abs(math.remainder(yaw, math.tau)) > ASIDE:
+            why = "-R, -P and -Y of create turn a robot [rad]; without them it looks along x"
+            measured = f"{name} began with a heading of {yaw:.2f} rad, and does not look along x"
+            return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"{called}, so it was")
 
 
@@ -336,6 +342,12 @@ def keeps_together(recording, parameters):
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
             elif not recording.has(f"topics/{name}/{DRIVES}/count"):
                 why = f"its node publishes nothing on /{name}/{DRIVES}"
+                weak = [e for e in recording.facts().get("endpoints", []) if e["topic"] == f"/{name}/{DRIVES}"]
+                if any(e["kind"] == "publisher" and e["reliability"] == "BEST_EFFORT" for e in weak):
+                    why = (
+                        f"its publisher on /{name}/{DRIVES} offers the reliability BEST_EFFORT, and the bridge asks "
+                        "for RELIABLE, so not one command arrives: use the default QoS, a depth of 10"
+                    )
                 if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
                     why = "no bridge carries /clock, so the timer of a node with use_sim_time never fires"
                     if wrong := next((b for b in bridges(recording) if b.ros_topic == "/clock"), None):
@@ -344,7 +356,8 @@ def keeps_together(recording, parameters):
                             "timers of its nodes never fire: it comes from Gazebo, [gz.msgs.Clock"
                         )
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reason = suspect(recording, "first_kept") or (_reason(sent) if sent else "") or _too_seldom(recording, name)
+        reason = suspect(recording, "first_kept") or (_reason(sent) if sent else "")
+        reason = reason or _too_seldom(recording, name) or suspect(recording, "heading", "angle")
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]
         gap = np.hypot(np.interp(times, front_times, front_x) - x, np.interp(times, front_times, front_y) - y)

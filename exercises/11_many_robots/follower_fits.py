@@ -131,6 +131,14 @@ def _angles(h):
         wrapped(np.arctan2(h.ahead, h.aside) - h.heading),
         "it exchanges the arguments of atan2: the angle to a place is atan2(y, x)",
     )
+    yield (
+        wrapped(bearing - h.front_heading),
+        "it subtracts the heading of the robot in front from the direction, and not its own heading",
+    )
+    yield (
+        wrapped(np.arctan2(np.abs(h.aside), h.ahead) - h.heading),
+        "it turns to the left only: the sign of the difference of the two y is lost, as by abs()",
+    )
     yield np.degrees(bearing) - h.heading, "the direction is in degrees, its own heading in radians"
     yield bearing - np.degrees(h.heading), "its own heading is in degrees, the direction in radians"
     yield wrapped(begins - h.heading), f"the direction in which it turns is wrong: {PLACES}"
@@ -147,7 +155,7 @@ def speed(every):
         return _constant(every[0])
     if any(copied(v, h.front_linear) for h in every):
         return "its speed is that of the robot in front, whatever the distance"
-    if words := _summed(every):
+    if words := _summed(every) or _pauses(every):
         return words
     right = _closest([(h.distance, "") for h in every], v)
     fits = right is not None and right[2] > FITS
@@ -206,6 +214,21 @@ def _lengths(h):
     yield h.ahead, "its speed depends on the distance along x only, not on the distance to the robot in front"
     yield h.front_x - h.x, f"its speed depends on the difference of the two x only, and {PLACES}"
     yield np.abs(h.ahead) + np.abs(h.aside), "it adds the distances along x and y: the distance is hypot(x, y)"
+
+
+def _pauses(every):
+    """Return that many commands are zero although the follower is behind; empty if they are few, or most."""
+    distance = np.min([h.distance for h in every], axis=0)
+    zero = np.abs(every[0].linear) < 1e-6
+    if zero.all():
+        return ""
+    behind = distance > max(GAP + WIDE, np.median(distance[~zero]))  # it drives when it is nearer
+    if behind.sum() < FEWEST or not 0.2 < np.mean(zero[behind]) < SHARE or np.sum(~zero & behind) < 3:
+        return ""
+    return (
+        f"{100 * np.mean(zero[behind]):.0f} % of its speeds are zero although it is behind: the condition under which "
+        "it drives, such as to face that robot, seldom holds; drive and turn at once, or let the angle be larger"
+    )
 
 
 def _summed(every):

@@ -38,7 +38,8 @@ MEANINGS = (
     ),
     (
         re.compile(r"Couldn't parse remap rule: '-r ([^']*)'"),
-        "{0} is no remapping: after -r comes FROM:=TO, with := and no spaces, and names have no braces",
+        "{0} is no remapping: after -r comes FROM:=TO, with := and no spaces; names have no braces, and that of a node "
+        "has no /",
     ),
     (
         re.compile(r"Couldn't parse params file: '--params-file \S*?([\w.-]*bridge[\w.-]*)'"),

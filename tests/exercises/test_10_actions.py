@@ -205,7 +205,11 @@ def test_a_command_for_each_waypoint_only():
 
 @pytest.mark.parametrize(
     ("about", "words"),
-    [("old_pose", "steers by a place that the robot has left: line 7"), ("one_axis", "counts as reached where")],
+    [
+        ("summed_place", "line 7: so it is"),
+        ("old_pose", "steers by a place that the robot has left: line 7"),
+        ("one_axis", "counts as reached where"),
+    ],
 )
 def test_a_suspect_of_a_patrol_that_went_elsewhere(about, words):
     patrol = Patrol([[1.2, 0.0], [1.9, -0.4]], status="")
@@ -222,7 +226,7 @@ def test_a_waypoint_that_is_reached_by_reckoning():
 def test_a_loop_that_asks_for_more_than_the_task():
     patrol = Patrol(status="").feedback(np.hypot)
     patrol.events.append((patrol.times[-1], "feedback", "patrol", {"waypoint": 1, "distance": 0.06}))
-    assert "its distance is still 0.06 m" in found("result", patrol).explanation
+    assert "its distance is still 0.060 m" in found("result", patrol).explanation
 
 
 def later(waypoints, way, suspects=(), speed=0.4, answer="accepted"):
@@ -268,3 +272,19 @@ def test_a_later_patrol_that_goes_elsewhere(waypoints, suspects, words):
 def test_a_later_goal_that_is_refused(about, speed, words):
     suspects = [{"line": 9, "about": about, "said": "so it is"}]
     assert words in later([[1.0, 1.0]], [[2.0, 0.0]], suspects, speed, "rejected").explanation
+
+
+def test_a_later_patrol_that_is_at_its_end_and_goes_on():
+    finding = later([[2.0, 0.0]], [[2.0, 0.0]])
+    assert finding.passed
+    patrol = Patrol([[2.0, 0.0]], status="")
+    said = {"waypoint": 0, "distance": 0.02}
+    patrol.events.append((patrol.times[-1], "feedback", "again", said))
+    run = CHECKS["Run"](patrol)
+    assert "its distance is still 0.020 m" in CHECKS["still_driving"](run, "again")
+
+
+def test_a_distance_that_is_no_float():
+    patrol = Patrol()
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "feedback", "said": "round(left) is a whole number"}]}
+    assert "line 7: round(left)" in found("feedback", patrol).explanation

@@ -117,6 +117,7 @@ def test_a_wrong_speed_is_explained(speed, words):
         (lambda h: bearing(h) + h.heading, "adds its own heading"),
         (lambda h: np.arctan2(h.ahead, h.aside) - h.heading, "exchanges the arguments of atan2"),
         (lambda h: wrapped(h.heading - bearing(h)), "the sign of angular.z is wrong"),
+        (lambda h: wrapped(bearing(h) - h.front_heading), "subtracts the heading of the robot in front"),
         (lambda h: h.w / 2, "sends the turning rate of the robot in front"),
     ],
 )
@@ -236,3 +237,27 @@ def test_names_of_followers_and_of_what_they_hear():
     assert "a remapping of front/odom does not change it" in follower(front="/front/odom").explanation
     assert "that of another robot" in follower(front="/robot5/odom").explanation
     assert "is to be follower, in the namespace /robot2" in follower("/robot2/follower2").explanation
+
+
+def test_a_follower_that_seldom_drives():
+    turns = [0]
+
+    def seldom(h):
+        turns[0] += 1
+        return speed_of(distance(h) - GAP) if turns[0] % 2 else 0.0
+
+    assert "of its speeds are zero although it is behind" in told(rule(seldom), "speed")
+
+
+def test_a_robot_that_begins_turned_is_not_in_its_row():
+    def recorded(yaw):
+        signals = {f"truth/robot1/{key}": [value] for key, value in (("x", 0.0), ("y", 0.0), ("yaw", yaw))}
+        return SimpleNamespace(
+            signals=lambda: signals,
+            signal=lambda name: Signal(np.zeros(1, dtype=np.int64), np.array(signals[name])),
+            properties=lambda entity: {"trial_parameters": '{"parameters": {"robots": "1"}}'},
+            facts=lambda: {},
+        )
+
+    assert CHECKS["in_a_row"](recorded(0.0), {}).passed
+    assert "-Y of create turn a robot" in CHECKS["in_a_row"](recorded(3.14), {}).explanation

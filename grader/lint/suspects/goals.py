@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, called, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name
 
 # Comparisons of a length with a number that tell an empty list from all others.
 TELLS_EMPTY = frozenset({(ast.Eq, 0), (ast.NotEq, 0), (ast.Gt, 0), (ast.LtE, 0), (ast.Lt, 1), (ast.GtE, 1)})
@@ -103,6 +103,21 @@ def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a distance of a feedback that is made a whole number, where the field is a float."""
+    given = [(each.value, each.arg) for each in ast.walk(tree) if isinstance(each, ast.keyword)]
+    given += [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
+    for value, field in given:
+        name = last_name(value.func) if isinstance(value, ast.Call) else ""
+        if field == "distance" and isinstance(value, ast.Call) and len(value.args) == 1 and name in ("round", "int"):
+            yield (
+                value.lineno,
+                "feedback",
+                f"{ast.unparse(value)} is a whole number, and the field distance is a float64, to which rclpy does "
+                "not convert it: the number itself, or float(...), can be sent",
+            )
+
+
 def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
     """Yield each function that ends goals, with the attributes that `__init__` alone assigns, and what."""
     assigned: dict[str, list[tuple[str, str]]] = {}
@@ -158,4 +173,11 @@ def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
-LOOKS = (short_lists_refused, limits_excluded, aborted_when_cancelled, lists_that_grow, counters_that_go_on)
+LOOKS = (
+    short_lists_refused,
+    limits_excluded,
+    aborted_when_cancelled,
+    whole_distances,
+    lists_that_grow,
+    counters_that_go_on,
+)

@@ -1,4 +1,4 @@
-"""Suspects in an action server that drives: a loop that never asks for a cancellation, a count that goes on."""
+"""Suspects in an action server that drives: when it asks for a cancellation, what it counts, where it thinks it is."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import called
+from gz_course.grader.lint.syntax import assigned, called
 
 Suspect = tuple[int, str, str]
 ASKS = "is_cancel_requested"
+ANGLE = re.compile(r"turn|err|angle|diff|delta|alpha|beta")
 STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
 Loop = ast.While | ast.For
 
@@ -126,4 +127,42 @@ def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on, one_axis_is_enough)
+def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+            continue
+        left, limit = ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
+        drives = any(
+            ast.unparse(target).endswith("linear.x") and ast.unparse(value) not in ("0", "0.0")
+            for part in node.body
+            for target, value in assigned(part)
+        )
+        angle = isinstance(node.test.left, ast.Name | ast.Attribute) and ANGLE.search(left)
+        if drives and angle and isinstance(node.test.ops[0], ast.Lt | ast.LtE) and not limit.startswith("-"):
+            yield (
+                node.lineno,
+                "one_side",
+                f"{left} < {limit} is true for every negative {left}, too, however far to the right: compare "
+                f"abs({left})",
+            )
+
+
+def summed_places(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is a sum of velocities, where the odometry says the place itself."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+            continue
+        if ".twist.linear" in ast.unparse(node.value) and ast.unparse(node.target).startswith("self."):
+            yield (
+                node.lineno,
+                "summed_place",
+                f"{ast.unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
+                "with it; the place in the frame odom is pose.pose.position of the message",
+            )
+
+
+LOOKS = (
+    loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on, one_axis_is_enough, one_side_of_an_angle,
+    summed_places,
+)  # fmt: skip

@@ -94,3 +94,27 @@ def test_a_place_handed_over_to_the_loop_is_a_copy():
 def test_a_place_that_is_reached_by_one_axis(test, found):
     source = f"def go(self, p):\n    {test}\n        self.publisher.publish(Twist())\n"
     assert bool(said(source, "one_axis")) == found
+
+
+def test_an_angle_in_degrees_beside_one_in_radians():
+    heading = "self.heading = degrees(2 * atan2(q.z, q.w))\nturn = atan2(dy, dx) - self.heading\n"
+    assert "self.heading is in degrees, and atan2(dy, dx) in radians" in said(heading, "angle")
+    assert said(heading.replace("degrees(2 * atan2(q.z, q.w))", "2 * atan2(q.z, q.w)"), "angle") == ""
+    assert said(heading.replace("atan2(dy, dx) -", "degrees(atan2(dy, dx)) -"), "angle") == ""
+
+
+@pytest.mark.parametrize(
+    ("source", "about", "words"),
+    [
+        ("if turn < 0.3:\n    command.linear.x = speed\n", "one_side", "compare abs(turn)"),
+        ("if abs(turn) < 0.3:\n    command.linear.x = speed\n", "one_side", ""),
+        ("if left < 0.3:\n    command.linear.x = speed\n", "one_side", ""),
+        ("self.x += m.twist.twist.linear.x * 0.05\n", "summed_place", "a sum of velocities"),
+        ("self.x += step\n", "summed_place", ""),
+        ("f = Patrol.Feedback(distance=round(left))\n", "feedback", "is a whole number"),
+        ("f = Patrol.Feedback(distance=round(left, 2))\n", "feedback", ""),
+    ],
+)
+def test_angles_places_and_distances(source, about, words):
+    found = said(source, about)
+    assert words in found and bool(words) == bool(found)
