@@ -239,6 +239,8 @@ def _summed(every):
     if between.sum() < FEWEST or np.ptp(changes[between]) < VARIES:
         return ""
     for h in every:
+        if np.ptp(h.distance[1:][between]) < VARIES:
+            continue
         slope, offset = np.polyfit(h.distance[1:][between], changes[between], 1)
         rest = changes[between] - (slope * h.distance[1:][between] + offset)
         if slope > 0 and 1 - rest.var() / changes[between].var() > FITS and abs(-offset / slope - GAP) < WIDE:

@@ -17,7 +17,7 @@ OF_EVERY_NODE = frozenset({"use_sim_time", "start_type_description_service"})
 
 
 def arguments_unread(file: LaunchFile) -> Iterator[Place]:
-    """Find an argument that is declared, and whose value nothing in the file asks for."""
+    """Find an argument that is declared, and whose value nothing asks for in a file that asks for that of another."""
     read, unknown = set[str](), False
     for node in file.nodes:
         if isinstance(node, ast.Call) and last_name(node.func).startswith("LaunchConfiguration"):
@@ -31,7 +31,7 @@ def arguments_unread(file: LaunchFile) -> Iterator[Place]:
     includes = any(file.calls("IncludeLaunchDescription"))
     for call in file.calls("DeclareLaunchArgument"):
         name = text(argument(call, "name", 0))
-        if name and name not in read and not unknown and not (includes and name in INCLUDED):
+        if read - {""} and name and name not in read and not unknown and not (includes and name in INCLUDED):
             yield (
                 call.lineno,
                 f"the argument {name} is declared, and nothing in this file asks for its value, "
