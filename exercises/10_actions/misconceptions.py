@@ -4,6 +4,7 @@ import numpy as np
 
 from gz_course.grader.score.suspects import suspect
 
+LONG = 4.0  # [s] without a new command
 MOVED = 0.1  # [m] a robot that moved less stood
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 SAME = 0.1  # of a speed, to be called the same
@@ -19,15 +20,34 @@ def went_elsewhere(run, goal, until):
         return ""
     if np.hypot(*(way - way[0]).T).max() < MOVED:
         return stood(run, chosen)
-    if said := suspect(run.recording, "heading", "angle"):
+    if said := suspect(run.recording, "summed_place", "heading", "angle"):
         return said
     if words := other_places(way, points):
         return f"The robot went elsewhere: {words}"
+    if words := old_commands(run, goal, until):
+        return words
+    if said := suspect(run.recording, "one_axis"):
+        return f"A waypoint counts as reached where the robot is not: {said}"
     if len(points) > 1 and not _reaches(way, points[:1]) and _reaches(way, points[-1:]):
         return (
             "The robot drove to the last waypoint only: the goal holds a list of them, to be visited one after another"
         )
     return turned_wrong(run, chosen, points) or blind(run, goal)
+
+
+def old_commands(run, goal, until):
+    """Find out whether the server steers by an old place, or sends a command once and waits."""
+    if said := suspect(run.recording, "old_pose"):
+        return f"Your server steers by a place that the robot has left: {said}"
+    start, _ = run.period(goal)
+    times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    sent = int(np.sum((times >= start) & (times <= until)))
+    if 0 < sent <= len(run.waypoints(goal)) and until - start > LONG:
+        return (
+            f"Your server sent {'1 command' if sent == 1 else f'{sent} commands'} in {until - start:.0f} s: a command "
+            "that is computed once for each waypoint never changes; compute and publish it in every round of the loop"
+        )
+    return ""
 
 
 def other_places(way, points):
@@ -129,6 +149,10 @@ def reached_early(run, goal):
     if words := other_places(way, np.array(points)):
         return f"The robot went elsewhere: {words}"
     near = [float(np.hypot(*(way - point).T).min()) for point in points]
+    if said := suspect(run.recording, "one_axis"):
+        return f"A waypoint counts as reached where the robot is not: {said}"
+    if max(near) < 0.6 and (words := by_reckoning(run, goal)):
+        return words
     if max(near) < 0.6:
         return (
             f"Your server holds a waypoint for reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
@@ -138,6 +162,25 @@ def reached_early(run, goal):
         return (
             f"The patrol ended as {found['status']} after the first waypoint: a return, or a break, stands inside the "
             "loop"
+        )
+    return ""
+
+
+def by_reckoning(run, goal):
+    """Find out whether the distances of the feedback go to 0 without the robot: its time, or its steps, are counted."""
+    said, points = run.all("feedback", goal), np.array(run.waypoints(goal), dtype=float)
+    said = [each for each in said if 0 <= each["waypoint"] < len(points)]
+    if len(said) < 5:
+        return ""
+    way = run.way[np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)]
+    index, given = np.array([each["waypoint"] for each in said]), np.array([each["distance"] for each in said])
+    left = np.hypot(*(way - points[index]).T)
+    lasts = [np.flatnonzero(index == each)[-1] for each in set(index.tolist())]
+    if all(given[i] < 0.2 for i in lasts) and max(left[i] - given[i] for i in lasts) > 0.1:
+        return (
+            f"Your server takes a waypoint for reached that is still {max(left[i] for i in lasts):.2f} m away, where "
+            f"its own distance says {min(given[i] for i in lasts):.2f} m: it counts time or steps, and does not look "
+            "where /odom says that the robot is; that decides when a waypoint is reached"
         )
     return ""
 
@@ -168,13 +211,13 @@ def counts_on(run, found, count):
     )
 
 
-def drives_on(run):
-    """Return how fast [m/s] the robot is when a patrol has been over for 0.3 s, until the next goal."""
+def drives_on(run, speeds):
+    """Return the largest of the robot's speeds when a patrol has been over for 0.3 s, until the next goal."""
     found, following = run.one("result", "patrol"), run.one("sent", "cancelled")
     if found is None or following is None:
         return 0.0
     after = (run.times >= found["at"] + 0.3) & (run.times <= following["at"])
-    return float(np.abs(run.linear.values[after]).max(initial=0.0))
+    return float(np.abs(speeds[after]).max(initial=0.0))
 
 
 def other_speed(run, fastest):

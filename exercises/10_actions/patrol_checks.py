@@ -17,8 +17,11 @@ from gz_course.grader.score.suspects import suspect
 
 NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
 LARGEST_GAP = 1.1  # [s] between two feedback messages
+TURNS_ON = 0.1  # [rad/s] when a patrol is over
+STILL = 1.5  # [s] before the end of a run: who sends feedback then is still driving
 STOPPED = 0.5  # [s] after the cancellation
 MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
+LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
 GOALS = {"empty": "a goal without waypoints", "too_fast": "a speed above max_speed", "backwards": "a negative speed"}
 
 
@@ -140,7 +143,10 @@ def visits(recording, parameters):
     _, end = run.period("patrol")
     count, left = run.nearest("patrol", end)
     total = len(run.waypoints("patrol"))
-    if count == total and (moving := MISCONCEPTIONS.drives_on(run)) > 0.03:
+    if count == total and (turning := MISCONCEPTIONS.drives_on(run, run.angular.values)) > TURNS_ON:
+        words = "The robot turns on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
+        return Finding(False, expected, f"{turning:.2f} rad/s after the end", end, explanation=words)
+    if count == total and (moving := MISCONCEPTIONS.drives_on(run, run.linear.values)) > 0.03:
         words = "The robot drives on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
         return Finding(False, expected, f"{moving:.2f} m/s after the end", end, explanation=words)
     if count == total:
@@ -169,6 +175,8 @@ def speed(recording, parameters):
         start, end = run.period(goal)
         values = run.linear.values[(run.times >= start) & (run.times <= end)]
         fastest, wanted = float(np.max(values, initial=0.0)), run.one("sent", goal)["speed"]
+        if fastest < 0.02 and any(each > 0.02 for each in fastest_of.values()):
+            continue  # it never set off, which is no matter of speed
         fastest_of[goal] = fastest
         right = 0.85 * wanted <= fastest <= 1.12 * wanted
         if not measured or not right:
@@ -191,7 +199,9 @@ def feedback(recording, parameters):
     if run.nearest("patrol", end)[0] < len(points):
         return gated(expected, "the patrol was not driven to its end")
     if not said:
-        return wrong("no feedback came", end, "Your server never calls publish_feedback")
+        return wrong(
+            "no feedback came", end, suspect(recording, "feedback") or "Your server never calls publish_feedback"
+        )
     if all(each["at"] > end - 0.3 for each in said):
         return wrong("it came at the end only", end, "Your feedback comes only when the patrol is over")
     times = [start, *(each["at"] for each in said), end]
@@ -241,11 +251,22 @@ def other_distance(run, said, points):
     return ""
 
 
+def still_driving(run, goal):
+    """Return that a patrol goes on although the robot is at the last waypoint; empty if that is not so."""
+    said = run.all("feedback", goal)
+    if not said or said[-1]["at"] < run.end - STILL or not 0 <= said[-1]["distance"] < NEAR:
+        return ""
+    return (
+        f"The robot is at the last waypoint, but the loop in execute goes on: its distance is still "
+        f"{said[-1]['distance']:.3f} m, and the condition of the loop asks for something else than within 0.15 m"
+    )
+
+
 def endless(run):
     """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
     if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
         return ""
-    return (
+    return still_driving(run, "patrol") or (
         "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
         "Patrol.Result (a function without return returns None, which is no result)"
     )
@@ -289,15 +310,21 @@ def busy(recording, parameters):
             after = (
                 f"a patrol had {'succeeded' if succeeded else 'ended'}" if goal == "cancelled" else "one was cancelled"
             )
-            why = f"Your server rejects every goal after {after}: it still holds itself for busy"
+            why = LATER.refused(run, goal) or (
+                f"Your server rejects every goal after {after}: it still holds itself for busy"
+            )
             return Finding(False, expected, f"a goal was rejected after {after}", event["at"], explanation=why)
         if not run.one("accepted", goal):
             return gated(expected, "an earlier patrol did not end")
     found = run.one("result", "again")
     if found is None:
-        return Finding(False, expected, "the patrol after the cancelled one did not end", run.end)
+        measured = "the patrol after the cancelled one did not end"
+        why = still_driving(run, "again") or LATER.of_a_later_goal(run)
+        return Finding(False, expected, measured, run.end, explanation=why)
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
-    return Finding(passed, expected, f"the patrol after the cancelled one ended as {found['status']}", found["at"])
+    measured = f"the patrol after the cancelled one ended as {found['status']}"
+    why = "" if passed else LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "again")
+    return Finding(passed, expected, measured, found["at"], explanation=why)
 
 
 def cancel(recording, parameters):
@@ -340,5 +367,6 @@ def cancel(recording, parameters):
     elif found["visited"] not in counts:
         been = f"{min(counts)} of the waypoints when it was cancelled"
         why = next(filter(None, (MISCONCEPTIONS.counts_on(run, found, count) for count in sorted(counts))), "")
-        why = why or f"visited is {found['visited']}, but the robot had been at {been}"
+        elsewhere = LATER.of_a_later_goal(run)
+        why = elsewhere or why or f"visited is {found['visited']}, but the robot had been at {been}"
     return Finding(not why, expected, measured, found["at"], explanation=why)

@@ -10,12 +10,17 @@ import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import argument, complaint, deaths, launch_facts, logged_error, ran
+from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
+from gz_course.grader.score.suspects import suspect
 
 GAP = 1.2  # [m]
+SELDOM = 0.4  # [s] between the commands of a follower
+ASIDE = 0.2  # [rad] that a robot may be turned at its start
 ROW = 0.15  # [m] that a robot may start beside its place
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
 AT_REST = 0.3  # [m] that the gap may be off in the end
+OF_A_ROBOT = re.compile(r"/robot\d+/")
+NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
 STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
 NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 DRIVES, HEARS = "cmd_vel", "odom"
@@ -45,6 +50,11 @@ def in_a_row(recording, parameters):
     if not there:
         said = _create_said(recording)
         why = "" if said else "create of ros_gz_sim puts a model into a running world"
+        if match := NO_MODEL.search(said):
+            why = (
+                f"{match[1]} is looked for in the folder in which ros2 launch is called, and not beside the launch "
+                f"file: give its full path, str(Path(__file__).parent / '{match[1]}')"
+            )
         if not said and not any(STARTED.match(line.text) for line in recording.lines("log/student")):
             why = (
                 "no create was ever started: an action runs only if it is in the LaunchDescription, or in the list "
@@ -74,12 +84,18 @@ def in_a_row(recording, parameters):
             )
         elif len(there) > len(names):
             why = f"the argument robots has no effect: {len(names)} robots were asked for"
+        why = declared(recording, "robots", "2") or why
         return Finding(False, expected, f"{called}, there were {', '.join(there)}", explanation=why)
     for number, name in enumerate(names):
         x, y = (recording.signal(f"truth/{name}/{axis}").values[0] for axis in ("x", "y"))
         if math.hypot(x + GAP * number, y) > ROW:
             measured = f"{name} began at x {x:.2f} m, y {y:.2f} m, not at x {-GAP * number:.2f} m"
             return Finding(False, expected, measured, explanation=_misplaced(recording, names))
+        yaw = float(recording.signal(f"truth/{name}/yaw").values[0])
+        if abs(math.remainder(yaw, math.tau)) > ASIDE:
+            why = "-R, -P and -Y of create turn a robot [rad]; without them it looks along x"
+            measured = f"{name} began with a heading of {yaw:.2f} rad, and does not look along x"
+            return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"{called}, so it was")
 
 
@@ -120,7 +136,8 @@ def one_clock(recording, parameters):
         why = "every message of the clock then comes as often: bridge it outside of what makes a robot"
         return Finding(False, expected, f"{len(found)} bridges publish /clock", explanation=why)
     if found[0].direction != "GZ_TO_ROS":
-        return Finding(False, expected, f"the direction of /clock is {found[0].direction}")
+        why = "the clock comes from Gazebo: GZ_TO_ROS, or [ between the two types"
+        return Finding(False, expected, f"the direction of /clock is {found[0].direction}", explanation=why)
     return Finding(found[0].to_ros > 5, expected, f"{found[0].to_ros} messages of the clock came")
 
 
@@ -177,6 +194,8 @@ def own_topics(recording, parameters):
         paused = any(each["paused"] for each in ran(recording))
         there = ", ".join(_there(recording)) or "none"
         why = f"no robot of that name is in the world: there are {there}"
+        if not paused and not _there(recording):
+            return Finding(False, expected, "no robot came into the world", gated=True)
         why = "without -r the simulator starts paused" if paused else why
         return Finding(False, expected, f"no message came on {silent[0]}", explanation=why)
     return Finding(True, expected, f"{len(wanted)} topics of {len(names)} robots")
@@ -189,7 +208,8 @@ def listens_to_the_one_in_front(recording, parameters):
     if died := next(
         (each for each in deaths(recording) if "follower" in each.process or "python" in each.process), None
     ):
-        return Finding(False, expected, f"a follower ended with exit code {died.code}{died.words}")
+        measured = f"a follower ended with exit code {died.code}{died.words}"
+        return Finding(False, expected, measured, explanation=died.why)
     ends = [e for e in recording.facts().get("endpoints", []) if not e["topic"].startswith(("/rosout", "/parameter"))]
     nodes = {end["node"] for end in ends}
     drivers = sorted(e["node"] for e in ends if (e["kind"], e["topic"]) == ("publisher", f"/robot1/{DRIVES}"))
@@ -199,7 +219,10 @@ def listens_to_the_one_in_front(recording, parameters):
         node = f"/{name}/follower"
         if node not in nodes:
             others = sorted(each for each in nodes if each.endswith("follower"))
-            why = ""
+            others = others or sorted(each for each in nodes if each.startswith(f"/{name}/"))
+            why = f"the name of the node is to be follower, in the namespace /{name}" if others else ""
+            if all(each.endswith("/follower") for each in others):
+                why = ""
             if "/follower" in others:
                 why = "its node has no namespace: all followers have the same name"
             if not others and (program := _no_program(recording)):
@@ -223,6 +246,11 @@ def listens_to_the_one_in_front(recording, parameters):
                 why = f"it hears only itself: front/odom must become /{front}/{HEARS} by a remapping"
             elif heard == [f"/{front}/{HEARS}"]:
                 why = "it hears only the robot in front, and not its own odometry"
+            elif fixed := [t for t in heard if t not in wanted and not OF_A_ROBOT.match(t)]:
+                why = (
+                    f"{fixed[0]} begins with / in the node, so it is in no namespace, and a remapping of "
+                    f"{fixed[0][1:]} does not change it: write {fixed[0][1:]} in create_subscription, without the /"
+                )
             elif behind := [topic for topic in heard if topic not in wanted and topic.endswith(f"/{HEARS}")]:
                 why = f"in front of {name} is {front}: {behind[0]} is that of another robot"
             return Finding(False, expected, f"{node} hears {', '.join(heard) or 'nothing'}", explanation=why)
@@ -271,11 +299,24 @@ def _private(topic, node):
 
 def _reason(sent):
     """Return the misconception that fits the commands of a follower; empty if none does."""
+    if said := FITS["seen_elsewhere"](sent):
+        return said
     speed, turning = FITS["speed"](sent), FITS["turning"](sent)
     if FITS["PLACES"] in speed:
         turning = ""  # the same fault
     turns = f"it turns another way than to the place of the robot in front: {turning}" if turning else ""
     return "; and ".join(filter(None, (speed, turns)))
+
+
+def _too_seldom(recording, name):
+    """Return that a follower sends its commands too seldom; empty if it does not."""
+    times = recording.signal(f"topics/{name}/{DRIVES}/linear/x").times / 1e9
+    if len(times) < 3 or (apart := float(np.median(np.diff(times)))) < SELDOM:
+        return ""
+    return (
+        f"its node sends a command every {apart:.1f} s only, and the robot obeys the old one meanwhile: it falls "
+        "behind, and drives on when it should stop; call create_timer with a shorter period [s], such as 0.1"
+    )
 
 
 def keeps_together(recording, parameters):
@@ -295,14 +336,28 @@ def keeps_together(recording, parameters):
         sent = FITS["heard"](recording, name, front)
         if driven[name] < 0.3:
             why = "its node publishes no speed above zero"
-            if sent and (said := FITS["speed"](sent)):
+            if said := suspect(recording, "first_kept") or (FITS["seen_elsewhere"](sent) if sent else ""):
+                why = f"its node publishes no speed above zero: {said}"
+            elif sent and (said := FITS["speed"](sent)):
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
             elif not recording.has(f"topics/{name}/{DRIVES}/count"):
                 why = f"its node publishes nothing on /{name}/{DRIVES}"
+                weak = [e for e in recording.facts().get("endpoints", []) if e["topic"] == f"/{name}/{DRIVES}"]
+                if any(e["kind"] == "publisher" and e["reliability"] == "BEST_EFFORT" for e in weak):
+                    why = (
+                        f"its publisher on /{name}/{DRIVES} offers the reliability BEST_EFFORT, and the bridge asks "
+                        "for RELIABLE, so not one command arrives: use the default QoS, a depth of 10"
+                    )
                 if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
                     why = "no bridge carries /clock, so the timer of a node with use_sim_time never fires"
+                    if wrong := next((b for b in bridges(recording) if b.ros_topic == "/clock"), None):
+                        why = (
+                            f"/clock is bridged with the direction {wrong.direction}, so ROS gets no time and the "
+                            "timers of its nodes never fire: it comes from Gazebo, [gz.msgs.Clock"
+                        )
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reason = _reason(sent) if sent else ""
+        reason = suspect(recording, "first_kept") or (_reason(sent) if sent else "")
+        reason = reason or _too_seldom(recording, name) or suspect(recording, "heading", "angle")
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]
         gap = np.hypot(np.interp(times, front_times, front_x) - x, np.interp(times, front_times, front_y) - y)

@@ -17,6 +17,7 @@ EDGE = 0.02  # [m/s, rad/s] from the largest command: nearer ones are at the lim
 WIDE = 0.15  # [m] by which a gap differs from the right one
 SHARE = 0.9  # of the commands
 ASTRAY = 0.05  # [rad] from the direction in which a follower does not turn: more is another angle
+TRACKED = 0.3  # [rad] from the direction of the robot in front: who stays nearer turns to it
 PLACES = "each odometry begins where its own robot began, and the robot in front began 1.2 m ahead"
 VARIES = 0.03  # least standard deviation of commands that can be fitted
 
@@ -130,6 +131,14 @@ def _angles(h):
         wrapped(np.arctan2(h.ahead, h.aside) - h.heading),
         "it exchanges the arguments of atan2: the angle to a place is atan2(y, x)",
     )
+    yield (
+        wrapped(bearing - h.front_heading),
+        "it subtracts the heading of the robot in front from the direction, and not its own heading",
+    )
+    yield (
+        wrapped(np.arctan2(np.abs(h.aside), h.ahead) - h.heading),
+        "it turns to the left only: the sign of the difference of the two y is lost, as by abs()",
+    )
     yield np.degrees(bearing) - h.heading, "the direction is in degrees, its own heading in radians"
     yield bearing - np.degrees(h.heading), "its own heading is in degrees, the direction in radians"
     yield wrapped(begins - h.heading), f"the direction in which it turns is wrong: {PLACES}"
@@ -146,12 +155,55 @@ def speed(every):
         return _constant(every[0])
     if any(copied(v, h.front_linear) for h in every):
         return "its speed is that of the robot in front, whatever the distance"
+    if words := _summed(every) or _pauses(every):
+        return words
     right = _closest([(h.distance, "") for h in every], v)
     fits = right is not None and right[2] > FITS
     if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
         return _of_the_gap(v, *right[:2])
     other = _best([each for h in every for each in _lengths(h)], v, right)
     return other or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
+
+
+def seen_elsewhere(every):
+    """Return where a follower that never drives ahead takes the robot in front to be; empty if that is not known.
+
+    With a speed of zero only the sides to which it turns can tell.
+    """
+    if every[0].linear.max() > EDGE:
+        return ""
+    errors = [wrapped(np.arctan2(h.aside, h.ahead) - h.heading) for h in every]
+    right = max(_sides(error, h.angular) for error, h in zip(errors, every, strict=True))
+    if every[0].angular.any() and np.mean(np.abs(errors[0]) < TRACKED) > SHARE:
+        return ""
+    for h in every:
+        behind = np.arctan2(h.aside, h.front_x - GAP - h.x) - h.heading
+        exchanged = np.arctan2(-h.aside, h.x + GAP - h.front_x) - h.front_heading
+        if right < SHARE <= _sides(exchanged, h.angular):
+            return (
+                "it takes its own odometry for that of the robot in front, and that one for its own: the two "
+                "subscriptions, or their callbacks, are exchanged"
+            )
+        if right < SHARE <= _sides(behind, h.angular):
+            return (
+                "it looks for the robot in front 1.2 m too far behind: that one began 1.2 m ahead, so its place is "
+                "front.x + 1.2 - own.x"
+            )
+    if not every[0].angular.any() and (np.abs(every[0].aside) > WIDE).sum() >= FEWEST:
+        return (
+            "every command is zero, and it does not turn either although the robot in front drives to the side: the "
+            "node does not see that one move"
+        )
+    return ""
+
+
+def _sides(angle, commands):
+    """Return the share of the commands that turn to the side of an angle, where that is not nearly ahead."""
+    angle = wrapped(angle)
+    clear = (np.abs(angle) > ASTRAY) & (np.abs(angle) < np.pi - ASTRAY)
+    if clear.sum() < FEWEST:
+        return 0.0
+    return float(np.mean(np.sign(angle[clear]) == np.sign(commands[clear])))
 
 
 def _lengths(h):
@@ -162,6 +214,41 @@ def _lengths(h):
     yield h.ahead, "its speed depends on the distance along x only, not on the distance to the robot in front"
     yield h.front_x - h.x, f"its speed depends on the difference of the two x only, and {PLACES}"
     yield np.abs(h.ahead) + np.abs(h.aside), "it adds the distances along x and y: the distance is hypot(x, y)"
+
+
+def _pauses(every):
+    """Return that many commands are zero although the follower is behind; empty if they are few, or most."""
+    distance = np.min([h.distance for h in every], axis=0)
+    zero = np.abs(every[0].linear) < 1e-6
+    if zero.all():
+        return ""
+    behind = distance > max(GAP + WIDE, np.median(distance[~zero]))  # it drives when it is nearer
+    if behind.sum() < FEWEST or not 0.2 < np.mean(zero[behind]) < SHARE or np.sum(~zero & behind) < 3:
+        return ""
+    return (
+        f"{100 * np.mean(zero[behind]):.0f} % of its speeds are zero although it is behind: the condition under which "
+        "it drives, such as to face that robot, seldom holds; drive and turn at once, or let the angle be larger"
+    )
+
+
+def _summed(every):
+    """Return that a speed is a sum over all distances: its changes, not the speed, go with the distance."""
+    changes, v = np.diff(every[0].linear), every[0].linear
+    free = (v > v.min() + EDGE) & (v < v.max() - EDGE)
+    between = free[1:] & free[:-1]  # a sum beyond the limit is not seen
+    if between.sum() < FEWEST or np.ptp(changes[between]) < VARIES:
+        return ""
+    for h in every:
+        if np.ptp(h.distance[1:][between]) < VARIES:
+            continue
+        slope, offset = np.polyfit(h.distance[1:][between], changes[between], 1)
+        rest = changes[between] - (slope * h.distance[1:][between] + offset)
+        if slope > 0 and 1 - rest.var() / changes[between].var() > FITS and abs(-offset / slope - GAP) < WIDE:
+            return (
+                "its speed is a sum: each command adds to the one before what the distance asks for, so it swings "
+                "about the gap; the speed itself is a number times distance - gap"
+            )
+    return ""
 
 
 def _constant(h):

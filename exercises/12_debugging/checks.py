@@ -10,7 +10,7 @@ import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import complaint, deaths, launch_facts, simulator_fault
+from gz_course.grader.score.launched import complaint, deaths, declared, launch_facts, simulator_fault
 
 MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
 
@@ -189,6 +189,11 @@ def all_alive(recording, parameters):
     if ended:
         return Finding(False, expected, f"{ended[0]['program']} had ended with exit code {ended[0]['code']}")
     if not _ends(recording, "publisher", topic=COMMANDS):
+        others = [each for each in _ends(recording, "publisher") if "Twist" in each["type"].rpartition("/")[2]]
+        if others:
+            measured = f"{others[0]['node']} publishes its commands on {others[0]['topic']}, not on {COMMANDS}"
+            why = f"the topic of the commands in ROS is {COMMANDS}; bridge.yaml joins it with that of Gazebo"
+            return Finding(False, expected, measured, explanation=why)
         return Finding(False, expected, "no node publishes /cmd_vel: the driver never ran")
     if not _ends(recording, "subscription", LASER_SCAN):
         return Finding(False, expected, "no node takes scans: the ranger never ran")
@@ -223,8 +228,13 @@ def parks(recording, parameters):
     qx, qy, qz, qw = wall.quaternions[0]
     normal = np.array([1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy + qz * qw)])
     places = np.stack([x.values, y.values], axis=1)
+    world = Path(str(trial.get("parameters", {}).get("world", "bay.sdf"))).stem
+    ran = [Path(str(each["world"])).stem for each in launch_facts(recording).get("simulators", []) if each["ran"]]
+    if ran and world not in ran:
+        why = f"the world that world:=... names is to be simulated, here {world}.sdf: LaunchConfiguration('world')"
+        return Finding(False, expected, f"the world {ran[0]} was simulated, not {world}", explanation=why)
     away = np.abs((places - wall.positions[0][:2]) @ normal) - 0.05
-    deaf = _why_deaf(recording)
+    deaf = _why_deaf(recording) or _why_stale(recording)
     why = deaf or _why_there(recording, x.times, away, wanted)
     if recording.signal("truth/robot/distance").values[-1] < 0.1:
         return Finding(False, expected, "the cart stood still", explanation=deaf or _why_still(recording) or why)
@@ -258,6 +268,17 @@ def _why_deaf(recording):
     return ""
 
 
+def _why_stale(recording):
+    """Return that the distances have no time; empty if they have one, or none came."""
+    stamps = recording.signal("topics/wall/header/stamp").values
+    if not len(stamps) or np.any(stamps):
+        return ""
+    return (
+        "the time of every distance on /wall is 0: ranger_node.py does not set header.stamp, so the driver takes each "
+        "for too old"
+    )
+
+
 def _why_still(recording):
     """Return what the logs and the messages say about a cart that does not drive."""
     heard, commands = (len(recording.signal(f"topics/{name}")) for name in ("wall/range", "cmd_vel/count"))
@@ -287,6 +308,8 @@ def _why_there(recording, times, away, wanted):
     before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
     said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
+    if "stop_at says" in said and (missing := declared(recording, "stop_at", "1.0")):
+        return missing
     places = [each for each in recording.facts().get("before_speeds", []) if each["file"] == "driver_node.py"]
     if places and said.endswith("never holds"):
         said += ": " + "; ".join(f"line {each['line']}, `{each['code']}`" for each in places)

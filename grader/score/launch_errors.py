@@ -33,6 +33,15 @@ NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(r"Couldn't parse parameter override rule: '-p ([^']*)'"),
+        "{0} sets no parameter: after -p comes NAME:=VALUE, with := and no spaces, such as use_sim_time:=true",
+    ),
+    (
+        re.compile(r"Couldn't parse remap rule: '-r ([^']*)'"),
+        "{0} is no remapping: after -r comes FROM:=TO, with := and no spaces; names have no braces, and that of a node "
+        "has no /",
+    ),
+    (
         re.compile(r"Couldn't parse params file: '--params-file \S*?([\w.-]*bridge[\w.-]*)'"),
         "{0} is the bridge's own file and no file of ROS parameters: it is the value of the parameter config_file",
     ),

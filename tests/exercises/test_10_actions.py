@@ -187,3 +187,104 @@ def test_why_a_cancelled_robot_drives_on(status, suspects, words):
 def test_a_count_that_goes_on_is_named(visited, suspects, words):
     finding = cancelled(Patrol([[1.0, 0.0]], speed=0.3), "CANCELED", visited, suspects=suspects)
     assert not finding.passed and words in finding.explanation, finding
+
+
+def test_a_robot_that_turns_on_after_the_end():
+    patrol = Patrol()
+    patrol.signals["truth/robot/angular_z"] = 0.3 + 0 * patrol.times
+    finding = found("visits", patrol)
+    assert not finding.passed and "The robot turns on when the patrol is over" in finding.explanation
+
+
+def test_a_command_for_each_waypoint_only():
+    patrol = Patrol([[3.0, 0.0]], status="")
+    patrol.signals["topics/cmd_vel/linear/x"] = np.full(21, 0.4)  # until the patrol begins, and once
+    finding = found("visits", patrol)
+    assert "Your server sent 1 command in" in finding.explanation
+
+
+@pytest.mark.parametrize(
+    ("about", "words"),
+    [
+        ("summed_place", "line 7: so it is"),
+        ("old_pose", "steers by a place that the robot has left: line 7"),
+        ("one_axis", "counts as reached where"),
+    ],
+)
+def test_a_suspect_of_a_patrol_that_went_elsewhere(about, words):
+    patrol = Patrol([[1.2, 0.0], [1.9, -0.4]], status="")
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": about, "said": "so it is"}]}
+    assert words in found("visits", patrol).explanation
+
+
+def test_a_waypoint_that_is_reached_by_reckoning():
+    patrol = Patrol([[1.2, 0.0], [1.2, 0.4]])
+    patrol.feedback(lambda dx, dy: max(0.0, np.hypot(dx, dy) - 0.3))
+    assert "it counts time or steps" in found("visits", patrol).explanation
+
+
+def test_a_loop_that_asks_for_more_than_the_task():
+    patrol = Patrol(status="").feedback(np.hypot)
+    patrol.events.append((patrol.times[-1], "feedback", "patrol", {"waypoint": 1, "distance": 0.06}))
+    assert "its distance is still 0.060 m" in found("result", patrol).explanation
+
+
+def later(waypoints, way, suspects=(), speed=0.4, answer="accepted"):
+    """Let the patrol after the cancelled one be a goal for `waypoints`; the robot goes on along `way`."""
+    patrol = Patrol(way)
+    at = patrol.end - 2.0
+    patrol.events = [each for each in patrol.events if each[2] != "patrol"]
+    for goal, start in (("patrol", 0.2), ("cancelled", 0.5)):
+        patrol.events += [(start, "sent", goal, {"waypoints": POINTS, "speed": 0.4}), (start, "accepted", goal, {})]
+        patrol.events.append((start + 0.1, "result", goal, {"status": "SUCCEEDED", "visited": 2}))
+    patrol.events += [(0.3, "rejected", "second", {}), (at, "sent", "again", {"waypoints": waypoints, "speed": speed})]
+    patrol.events.append((at, answer, "again", {}))
+    if answer == "accepted":
+        patrol.events.append((patrol.end, "result", "again", {"status": "SUCCEEDED", "visited": 1}))
+    patrol.facts = lambda: {"suspects": list(suspects)}
+    patrol.properties = lambda entity: {}
+    return found("busy", patrol)
+
+
+@pytest.mark.parametrize(
+    ("waypoints", "suspects", "words"),
+    [
+        ([[1.5, 0.0]], (), "turned with its heading"),
+        ([[1.5, 0.0]], (), "seen from where the patrol begins"),
+        ([[0.3, 0.1]], [{"line": 9, "about": "anew", "said": "self.route keeps"}], "spoils the next one: line 9"),
+    ],
+)
+def test_a_later_patrol_that_goes_elsewhere(waypoints, suspects, words):
+    turned = "turned" in words
+    finding = later(waypoints, [[0.0, 2.0], [-2.0, 2.0]] if turned else [[0.0, 2.0], [2.0, 2.0]], suspects)
+    assert not finding.passed and words in finding.explanation, finding
+
+
+@pytest.mark.parametrize(
+    ("about", "speed", "words"),
+    [
+        ("goal_length", 0.4, "rejects a goal with a single waypoint: line 9"),
+        ("goal_limit", 0.5, "the speed 0.5, which is max_speed itself: line 9"),
+        ("goal_limit", 0.4, "still holds itself for busy"),
+        ("", 0.4, "still holds itself for busy"),
+    ],
+)
+def test_a_later_goal_that_is_refused(about, speed, words):
+    suspects = [{"line": 9, "about": about, "said": "so it is"}]
+    assert words in later([[1.0, 1.0]], [[2.0, 0.0]], suspects, speed, "rejected").explanation
+
+
+def test_a_later_patrol_that_is_at_its_end_and_goes_on():
+    finding = later([[2.0, 0.0]], [[2.0, 0.0]])
+    assert finding.passed
+    patrol = Patrol([[2.0, 0.0]], status="")
+    said = {"waypoint": 0, "distance": 0.02}
+    patrol.events.append((patrol.times[-1], "feedback", "again", said))
+    run = CHECKS["Run"](patrol)
+    assert "its distance is still 0.020 m" in CHECKS["still_driving"](run, "again")
+
+
+def test_a_distance_that_is_no_float():
+    patrol = Patrol()
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "feedback", "said": "round(left) is a whole number"}]}
+    assert "line 7: round(left)" in found("feedback", patrol).explanation

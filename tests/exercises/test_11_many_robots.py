@@ -117,6 +117,7 @@ def test_a_wrong_speed_is_explained(speed, words):
         (lambda h: bearing(h) + h.heading, "adds its own heading"),
         (lambda h: np.arctan2(h.ahead, h.aside) - h.heading, "exchanges the arguments of atan2"),
         (lambda h: wrapped(h.heading - bearing(h)), "the sign of angular.z is wrong"),
+        (lambda h: wrapped(bearing(h) - h.front_heading), "subtracts the heading of the robot in front"),
         (lambda h: h.w / 2, "sends the turning rate of the robot in front"),
     ],
 )
@@ -185,3 +186,78 @@ def test_names_of_bridges_in_namespaces(node, topic, words):
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
     finding = CHECKS["own_topics"](recording, {})
     assert words in finding.explanation
+
+
+def seen_elsewhere(angle):
+    """Return what is said of a follower that never drives ahead, and turns to one side after another."""
+    run = Run(lambda h: (0.0, float(np.clip(2.0 * wrapped(angle(h)), -1.5, 1.5))))
+    return FITS["seen_elsewhere"](FITS["heard"](run, "robot2", "robot1"))
+
+
+def test_a_follower_that_looks_elsewhere_and_does_not_drive():
+    assert seen_elsewhere(lambda h: bearing(h) - h.heading) == ""
+    exchanged = seen_elsewhere(lambda h: np.arctan2(-h.aside, h.x + GAP - h.front_x) - h.front_heading)
+    assert "takes its own odometry for that of the robot in front" in exchanged
+    behind = seen_elsewhere(lambda h: np.arctan2(h.aside, h.front_x - GAP - h.x) - h.heading)
+    assert "1.2 m too far behind" in behind
+    assert "does not see that one move" in seen_elsewhere(lambda h: 0.0)
+
+
+def test_a_speed_that_is_a_sum():
+    total = [0.0]
+
+    def summed(h):
+        total[0] += 0.1 * (distance(h) - GAP)
+        return float(np.clip(total[0], -5.0, 5.0))
+
+    assert "its speed is a sum" in told(rule(summed), "speed")
+
+
+def test_commands_that_come_too_seldom():
+    signal = Signal(np.arange(0, 7_000_000_000, 1_000_000_000), np.zeros(7))
+    assert "every 1.0 s only" in CHECKS["_too_seldom"](SimpleNamespace(signal=lambda name: signal), "robot2")
+    often = Signal(np.arange(0, 7_000_000_000, 100_000_000), np.zeros(70))
+    assert CHECKS["_too_seldom"](SimpleNamespace(signal=lambda name: often), "robot2") == ""
+
+
+def follower(node="/robot2/follower", front="/robot1/odom"):
+    ends = [
+        {"kind": "subscription", "topic": "/robot2/odom", "node": node},
+        {"kind": "subscription", "topic": front, "node": node},
+        {"kind": "subscription", "topic": "/clock", "node": node},
+        {"kind": "publisher", "topic": "/robot2/cmd_vel", "node": node},
+    ]
+    facts = {"endpoints": ends, "launch": {}}
+    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {}, lines=lambda entity: [])
+    return CHECKS["listens_to_the_one_in_front"](recording, {})
+
+
+def test_names_of_followers_and_of_what_they_hear():
+    assert follower().passed
+    assert "a remapping of front/odom does not change it" in follower(front="/front/odom").explanation
+    assert "that of another robot" in follower(front="/robot5/odom").explanation
+    assert "is to be follower, in the namespace /robot2" in follower("/robot2/follower2").explanation
+
+
+def test_a_follower_that_seldom_drives():
+    turns = [0]
+
+    def seldom(h):
+        turns[0] += 1
+        return speed_of(distance(h) - GAP) if turns[0] % 2 else 0.0
+
+    assert "of its speeds are zero although it is behind" in told(rule(seldom), "speed")
+
+
+def test_a_robot_that_begins_turned_is_not_in_its_row():
+    def recorded(yaw):
+        signals = {f"truth/robot1/{key}": [value] for key, value in (("x", 0.0), ("y", 0.0), ("yaw", yaw))}
+        return SimpleNamespace(
+            signals=lambda: signals,
+            signal=lambda name: Signal(np.zeros(1, dtype=np.int64), np.array(signals[name])),
+            properties=lambda entity: {"trial_parameters": '{"parameters": {"robots": "1"}}'},
+            facts=lambda: {},
+        )
+
+    assert CHECKS["in_a_row"](recorded(0.0), {}).passed
+    assert "-Y of create turn a robot" in CHECKS["in_a_row"](recorded(3.14), {}).explanation

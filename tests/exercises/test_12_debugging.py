@@ -102,3 +102,20 @@ def test_a_remapping_that_joins_nothing(remapping, words):
     facts = {"endpoints": ends, "remappings": [place | {"file": "bringup.launch.py", "line": 42}]}
     found = checks["same_topic"](SimpleNamespace(facts=lambda: facts), {})
     assert not found.passed and words in found.explanation, found.explanation
+
+
+CHECKS = runpy.run_path(str(course_root() / "exercises/12_debugging/checks.py"))
+
+
+@pytest.mark.parametrize(("stamps", "words"), [([0, 0], "does not set header.stamp"), ([0, 1], ""), ([], "")])
+def test_distances_without_a_time(stamps, words):
+    recording = SimpleNamespace(signal=lambda name: SimpleNamespace(values=np.array(stamps)))
+    found = CHECKS["_why_stale"](recording)
+    assert words in found and bool(words) == bool(found)
+
+
+def test_a_driver_whose_commands_have_another_name():
+    end = {"kind": "publisher", "type": "geometry_msgs/msg/Twist", "topic": "/model/robot/cmd_vel", "node": "/driver"}
+    recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
+    finding = CHECKS["all_alive"](recording, {})
+    assert "/driver publishes its commands on /model/robot/cmd_vel" in finding.measured

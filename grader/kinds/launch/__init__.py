@@ -15,6 +15,7 @@ from gz_course.grader.kinds.programs import launch_command
 from gz_course.grader.lint.launch_files import launch_places
 from gz_course.grader.lint.origins import before_speeds
 from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
@@ -48,9 +49,9 @@ def _places(submission: Submission) -> dict[str, list[dict[str, Any]]]:
     for name, content in submission.files.items():
         if name.endswith(".py"):
             places = (
-                launch_places(content)
+                launch_places(content, submission.files)
                 if name == submission.main
-                else {"slips": slips(content), "before_speeds": before_speeds(content)}
+                else {"slips": slips(content), "suspects": suspects(content), "before_speeds": before_speeds(content)}
             )
             for kind, each in places.items():
                 found.setdefault(kind, []).extend({"file": shown(name)} | place for place in each)

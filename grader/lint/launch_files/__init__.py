@@ -6,9 +6,11 @@ The kind of submission that is a launch file records them as facts; the diagnosi
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
-from gz_course.grader.lint.launch_files import actions, commands, values
+from gz_course.grader.lint.launch_files import actions, commands, unread, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
@@ -18,19 +20,21 @@ from gz_course.grader.lint.syntax import Places, places_in
 MOST = 3  # places reported at most
 
 
-def launch_places(content: bytes) -> dict[str, Places]:
+def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType({})) -> dict[str, Places]:
     """Return the places in a launch file, none if it is not Python.
 
     `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
     names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
-    and `default` (a text, or empty). `remappings` are those of its nodes, as `remappings.py` says.
+    and `default` (a text, or empty). `remappings` are those of its nodes, as `remappings.py` says. `nodes` are the
+    programs that come with the file, by name.
     """
     found: dict[str, Places] = {}
 
     def look(tree: ast.Module) -> Places:
         file = LaunchFile(tree)
         slips = [place for look in (*values.LOOKS, *actions.LOOKS, *commands.LOOKS) for place in look(file)]
-        slips += [*late_bound(tree), *missing_commas(content)]
+        slips += [*late_bound(tree), *missing_commas(content), *unread.undeclared_parameters(file, nodes)]
+        slips += [place for look in unread.LOOKS for place in look(file)]
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]
         found["fixed_worlds"] = [{"line": line, "world": world} for line, world in values.fixed_worlds(file)][:MOST]
         found["declared"] = [

@@ -20,6 +20,7 @@ from gz_course.grader.lint.slips import (
     limits,
     mixed_clocks,
     names,
+    never_set,
     no_effect,
     no_time_passed,
     not_what_they_seem,
@@ -42,7 +43,8 @@ from gz_course.grader.lint.syntax import Places, places_in
 MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
-    everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
+    everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, never_set.LOOKS,
+    unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,

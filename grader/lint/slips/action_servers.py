@@ -6,10 +6,12 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, called
 
 # Position of each callback among the arguments; -1 for those that are given by name only.
 PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
+DRIVES = frozenset({"publish", "sleep"})  # what a loop calls that drives
+SPINS = frozenset({"rclpy.spin_once", "rclpy.spin", "rclpy.spin_until_future_complete"})
 ENDS = ("succeed", "abort", "canceled")
 ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 
@@ -69,20 +71,62 @@ def no_result(tree: ast.AST) -> Iterator[Place]:
 
 
 def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
-    """Find a loop that waits in execute, in a node with one thread."""
-    names = {ast.unparse(node.func).rpartition(".")[2] for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    """Find a loop that waits in execute, in a node with one thread; a coroutine without await is no other."""
+    names = {
+        ast.unparse(node.func).rpartition(".")[2]
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and not _one_thread(node)
+    }
     if names & {"MultiThreadedExecutor", "Thread", "spin_once", "spin_some", "start_new_thread"} or "spin" not in names:
         return
     for role, function in _callbacks(tree):
-        if role != "execute_callback" or isinstance(function, ast.AsyncFunctionDef | ast.Lambda):
+        if role != "execute_callback" or isinstance(function, ast.Lambda):
+            continue
+        if any(isinstance(each, ast.Await | ast.AsyncFor | ast.AsyncWith) for each in ast.walk(function)):
             continue
         loop = next((each for each in ast.walk(function) if isinstance(each, ast.While)), None)
+        if loop is not None and isinstance(function, ast.AsyncFunctionDef) and not called(loop) >= DRIVES:
+            continue
         if loop is not None:
             yield (
                 loop.lineno,
                 "the loop in execute keeps the only thread of the node: neither /odom nor a wish to cancel is heard "
                 "while it runs. Spin with a MultiThreadedExecutor, and callbacks in a ReentrantCallbackGroup",
             )
+
+
+def _one_thread(call: ast.Call) -> bool:
+    """Return whether a call makes an executor of many threads with a single one."""
+    given = [*call.args[:1], *(each.value for each in call.keywords if each.arg == "num_threads")]
+    many = ast.unparse(call.func).rpartition(".")[2] == "MultiThreadedExecutor"
+    return many and any(isinstance(each, ast.Constant) and each.value == 1 for each in given)
+
+
+def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
+    """Find a goal that is ended in the callback that only answers whether it may be cancelled."""
+    for role, function in _callbacks(tree):
+        for call in (each for each in ast.walk(function) if isinstance(each, ast.Call)):
+            name = ast.unparse(call.func)
+            if role == "cancel_callback" and name.rpartition(".")[2] == "canceled":
+                yield (
+                    call.lineno,
+                    f"cancel_callback only answers whether the goal may be cancelled, and {name}() raises an error "
+                    "there: call it in execute, where is_cancel_requested is true, and return the result",
+                )
+
+
+def spins_itself(tree: ast.AST) -> Iterator[Place]:
+    """Find an execute callback that spins the node it belongs to."""
+    for role, function in _callbacks(tree):
+        for call in (each for each in ast.walk(function) if isinstance(each, ast.Call)):
+            name = ast.unparse(call.func)
+            if role == "execute_callback" and name in SPINS and call.args and ast.unparse(call.args[0]) == "self":
+                yield (
+                    call.lineno,
+                    f"{name}(self, ...) inside of a callback takes the node away from the executor that spins it, and "
+                    "then no goal, result or cancellation is served: time.sleep() waits, and a MultiThreadedExecutor "
+                    "runs the other callbacks meanwhile",
+                )
 
 
 def never_executed(tree: ast.AST) -> Iterator[Place]:
@@ -114,4 +158,7 @@ def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
-LOOKS = (answers, no_result, keeps_the_only_thread, never_executed, ends_before_it_drives)
+LOOKS = (
+    answers, no_result, keeps_the_only_thread, spins_itself, ended_by_the_answer, never_executed,
+    ends_before_it_drives,
+)  # fmt: skip

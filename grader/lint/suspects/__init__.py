@@ -16,9 +16,11 @@ from gz_course.grader.lint.suspects import (
     bias_while_turning,
     farthest,
     feedback,
+    goals,
     gyroscopes,
     headings,
     known_places,
+    old_values,
     patrols,
     pictures,
     rays,
@@ -42,6 +44,8 @@ LOOKS = (
     *feedback.LOOKS,
     *smoothing.LOOKS,
     *farthest.LOOKS,
+    *goals.LOOKS,
+    *old_values.LOOKS,
 )
 MOST = 12  # suspects kept
 

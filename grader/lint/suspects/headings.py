@@ -136,4 +136,31 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first, differences)
+def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the sum or difference of an angle in degrees and the direction that atan2 returns."""
+    values = list(assigned(tree))
+    in_degrees = {ast.unparse(target) for target, value in values if _in_degrees(value)}
+    in_radians = {ast.unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub | ast.Add):
+            continue
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            degrees = ast.unparse(one) in in_degrees or _in_degrees(one)
+            radians = ast.unparse(other) in in_radians or _of_atan2(other)
+            if degrees and radians:
+                yield (
+                    node.lineno,
+                    "angle",
+                    f"`{ast.unparse(node)[:70]}`: {ast.unparse(one)[:40]} is in degrees, and {ast.unparse(other)[:40]} "
+                    "in radians; both must be in one unit, and the sines of Python and ROS's messages take radians",
+                )
+
+
+def _of_atan2(value: ast.AST) -> bool:
+    """Return whether a value is what atan2 returns, in radians."""
+    return bool(called(value) & {"atan2", "arctan2"}) and not _in_degrees(value) and isinstance(value, ast.Call)
+
+
+LOOKS = (
+    quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first, degrees_beside_radians, differences,
+)  # fmt: skip

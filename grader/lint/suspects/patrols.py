@@ -1,14 +1,16 @@
-"""Suspects in an action server that drives: a loop that never asks for a cancellation, a count that goes on."""
+"""Suspects in an action server that drives: when it asks for a cancellation, what it counts, where it thinks it is."""
 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import called
+from gz_course.grader.lint.syntax import assigned, called
 
 Suspect = tuple[int, str, str]
 ASKS = "is_cancel_requested"
+ANGLE = re.compile(r"turn|err|angle|diff|delta|alpha|beta")
 STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
 Loop = ast.While | ast.For
 
@@ -106,4 +108,61 @@ def _lines_of_init(tree: ast.AST) -> set[int]:
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
-LOOKS = (loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on)
+def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop to a place that ends, or a place that counts as reached, as soon as x or y alone is near."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.If | ast.While) or not isinstance(node.test, ast.BoolOp):
+            continue
+        parts = [ast.unparse(each) for each in node.test.values if isinstance(each, ast.Compare)]
+        axes = [side for side in ("x", "y") if any(re.search(rf"abs\(.*{side}\b", part) for part in parts)]
+        loop, above = isinstance(node, ast.While), all(">" in part for part in parts)
+        below = all("<" in part for part in parts)
+        ends = isinstance(node.test.op, ast.And) and above if loop else isinstance(node.test.op, ast.Or) and below
+        if len(parts) == 2 and len(axes) == 2 and ends:
+            yield (
+                node.lineno,
+                "one_axis",
+                f"`{ast.unparse(node.test)[:90]}` is {'over' if loop else 'true'} as soon as x or y alone is near: "
+                "what counts is the distance, math.hypot(dx, dy)",
+            )
+
+
+def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+            continue
+        left, limit = ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
+        drives = any(
+            ast.unparse(target).endswith("linear.x") and ast.unparse(value) not in ("0", "0.0")
+            for part in node.body
+            for target, value in assigned(part)
+        )
+        angle = isinstance(node.test.left, ast.Name | ast.Attribute) and ANGLE.search(left)
+        if drives and angle and isinstance(node.test.ops[0], ast.Lt | ast.LtE) and not limit.startswith("-"):
+            yield (
+                node.lineno,
+                "one_side",
+                f"{left} < {limit} is true for every negative {left}, too, however far to the right: compare "
+                f"abs({left})",
+            )
+
+
+def summed_places(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is a sum of velocities, where the odometry says the place itself."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+            continue
+        if ".twist.linear" in ast.unparse(node.value) and ast.unparse(node.target).startswith("self."):
+            yield (
+                node.lineno,
+                "summed_place",
+                f"{ast.unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
+                "with it; the place in the frame odom is pose.pose.position of the message",
+            )
+
+
+LOOKS = (
+    loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on, one_axis_is_enough, one_side_of_an_angle,
+    summed_places,
+)  # fmt: skip

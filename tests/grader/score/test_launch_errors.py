@@ -12,6 +12,8 @@ from gz_course.grader.score.launch_errors import launch_meaning
             "Included launch description missing required argument 'world' (description: 'World')",
             "world', default_value",
         ),
+        ("Couldn't parse remap rule: '-r __ns:=/robot{number}'. Error: Expected", "names have no braces"),
+        ("Couldn't parse parameter override rule: '-p use_sim_time=true'. Error:", "NAME:=VALUE, with :="),
         ("launch configuration 'word' does not exist", "declares word"),
         ("Unknown substitution command [wheel_radius]. Valid commands are ['find']", "in braces, ${wheel_radius}"),
         ("the command 'xacro robot.urdf.xacro' failed: error: name 'radius' is not defined ", "xacro:property above"),

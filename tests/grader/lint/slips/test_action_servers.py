@@ -78,3 +78,24 @@ def test_each_is_found(old, new, words):
 def test_a_coroutine_with_one_thread_is_right():
     changed = RIGHT.replace("def execute", "async def execute").replace(", MultiThreadedExecutor(4)", "")
     assert slips(changed.encode()) == []
+
+
+def test_a_coroutine_that_never_awaits_keeps_the_only_thread():
+    loop = "            self.publisher.publish(Twist())\n            time.sleep(0.1)\n"
+    changed = RIGHT.replace("            time.sleep(0.1)\n", loop).replace("def execute", "async def execute")
+    assert slips(changed.encode()) == []
+    alone = changed.replace(", MultiThreadedExecutor(4)", "")
+    assert "keeps the only thread" in slips(alone.encode())[0]["said"]
+    assert slips(alone.replace("            time.sleep(0.1)", "            await self.pause(0.1)").encode()) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("MultiThreadedExecutor(4)", "MultiThreadedExecutor(num_threads=1)", "keeps the only thread"),
+        ("        return CancelResponse", "        handle.canceled()\n        return CancelResponse", "only answers"),
+        ("time.sleep(0.1)", "rclpy.spin_once(self, timeout_sec=0.1)", "takes the node away from the executor"),
+    ],
+)
+def test_what_a_callback_of_an_action_server_must_not_do(old, new, words):
+    assert words in " ".join(each["said"] for each in slips(RIGHT.replace(old, new, 1).encode()))
