@@ -14,6 +14,7 @@ from gz_course.grader.lint.slips import (
     action_servers,
     angles,
     callbacks,
+    conditions,
     everyday,
     exact_sums,
     late_binding,
@@ -22,6 +23,8 @@ from gz_course.grader.lint.slips import (
     no_effect,
     not_what_they_seem,
     parameters,
+    resets,
+    results,
     scan_callbacks,
     searches,
     sequences,
@@ -42,7 +45,8 @@ ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
-    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
+    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, conditions.LOOKS,
+    resets.LOOKS, results.LOOKS,
 )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays or goals.
+"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays, goals or drives.
 
 Each suspect says what it is about. A check that has seen the symptom in the recording names the suspect of that kind
 (`grader/score/suspects.py`); without a symptom nobody hears of it.
@@ -13,6 +13,7 @@ from gz_course.grader.lint.suspects import (
     aliases,
     bearings,
     bias_use,
+    drives,
     feedback,
     gyroscopes,
     headings,
@@ -34,6 +35,7 @@ LOOKS = (
     *aliases.LOOKS,
     *bearings.LOOKS,
     *feedback.LOOKS,
+    *drives.LOOKS,
 )
 MOST = 12  # suspects kept
 
