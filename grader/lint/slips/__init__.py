@@ -30,6 +30,7 @@ from gz_course.grader.lint.slips import (
     sequences,
     sorted_rays,
     starts,
+    states,
     time_units,
     transforms,
     unreached,
@@ -46,7 +47,7 @@ ROOMS = (
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, conditions.LOOKS,
-    resets.LOOKS, results.LOOKS,
+    resets.LOOKS, results.LOOKS, states.LOOKS,
 )  # fmt: skip
 
 

@@ -17,6 +17,11 @@ def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
     """Find `x > 0 or x < 5`, which always holds, and `x > 5 and x < 0`, which never does."""
     numbers = named_numbers(tree)
     for node in ast.walk(tree):
+        match node:
+            case ast.Compare(left=low, ops=[ast.Lt() | ast.LtE(), ast.Lt() | ast.LtE()], comparators=[_, high]):
+                if _order(low, high, numbers) > 0:
+                    code = ast.unparse(node)[:70]
+                    yield node.lineno, f"{code} never holds: the first bound is larger than the second one"
         if not isinstance(node, ast.BoolOp) or len(node.values) != 2:
             continue
         bounds = [bound for each in node.values if (bound := _bound(each))]

@@ -99,4 +99,30 @@ def one_message(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-LOOKS = (no_return, one_message)
+def not_called(tree: ast.AST) -> Iterator[Place]:
+    """Find `if not self.over:` where over is a method: without brackets it is always true."""
+    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+        methods = {each.name for each in owner.body if isinstance(each, ast.FunctionDef) and not each.decorator_list}
+        kept = {ast.unparse(target) for target, _ in assigned(owner)}
+        for node in ast.walk(owner):
+            match node:
+                case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(ast.Not(), test):
+                    parts = [test]
+                case ast.BoolOp(values=parts):
+                    pass
+                case ast.Compare(left=test, comparators=[ast.Constant(value=True | False)]):
+                    parts = [test]
+                case _:
+                    continue
+            for part in parts:
+                name = ast.unparse(part)
+                if isinstance(part, ast.Attribute) and name.removeprefix("self.") in methods and name not in kept:
+                    yield (
+                        part.lineno,
+                        f"{name} without brackets is the method itself, which counts as true and is not called: "
+                        f"{name}()",
+                    )
+                    return
+
+
+LOOKS = (no_return, one_message, not_called)

@@ -152,12 +152,27 @@ def _returns(block: ast.If) -> bool:
     return isinstance(block.body[-1], ast.Return | ast.Raise | ast.Continue | ast.Break)
 
 
+def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a time that is compared with == and a number of seconds: it holds for a moment, or for a second."""
+    values = set_to(tree)
+    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
+        sides = (node.left, node.comparators[0])
+        number = next((each.value for each in sides if isinstance(each, ast.Constant)), None)
+        late = isinstance(node.ops[0], ast.Eq) and isinstance(number, int | float) and number >= 1
+        if late and any(_reads_time(side, values, STEPS) for side in sides):
+            yield (
+                node.lineno,
+                "again",
+                f"{ast.unparse(node)[:60]} holds for a moment and then no more: >= holds from then on",
+            )
+
+
 def of_a_plain_drive(tree: ast.AST) -> Iterator[Suspect]:
     """Look into a file that sends velocities and hears of nothing but odometry: it drives for a time, to no goal."""
     heard = {ast.unparse(call.args[0]) for call, name in calls(tree) if name == "create_subscription" and call.args}
     if not any(True for _ in set_speeds(tree)) or heard - {"Odometry", "Clock"} or called(tree) & OTHER_TASKS:
         return
-    for look in (*endless_drives.LOOKS, by_place, set_again, falls_through):
+    for look in (*endless_drives.LOOKS, by_place, set_again, falls_through, for_a_moment):
         yield from look(tree)
 
 

@@ -108,27 +108,61 @@ def _compared(tree: ast.AST, name: str) -> bool:
 
 
 def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a Twist that is made once and filled below a condition, and that nothing sets back to zero."""
-    init, values = in_init(tree), set_to(tree)
-    published = {message for _, message in publish_calls(tree)}
-    for block in (node for node in ast.walk(tree) if isinstance(node, ast.If) and id(node) not in init):
-        for target, value in (pair for statement in block.body for pair in set_speeds(statement)):
-            message = ast.unparse(target).removesuffix(".linear.x")
-            made = values.get(message, [])
-            once = message.startswith("self.") and bool(made) and all(id(each) in init for each in made)
-            zero = any(
-                is_zero(other) or not isinstance(other, ast.Constant)
-                for each, other in set_speeds(tree)
-                if ast.unparse(each) == ast.unparse(target) and id(other) not in init
-            )
-            if once and message in published and not zero and not is_zero(value):
-                yield (
-                    target.lineno,
-                    "endless",
-                    f"{message} is one message for all calls and keeps what is set here, below  "
-                    f"if {ast.unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 then, "
-                    "or make a new Twist() in every call",
+    """Find a Twist that is made once, filled below a condition in a callback, and never set back to zero."""
+    nodes = in_init(tree)
+    sent = {message for _, message in publish_calls(tree)}
+    made = {
+        ast.unparse(target).removeprefix("self."): value
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Call) and last_name(value.func) == "Twist"
+    }
+    for function in (each for each in functions(tree) if each.name != "__init__"):
+        own = {ast.unparse(target) for target, _ in assigned(function)} | {each.arg for each in function.args.args}
+        for block in (node for node in ast.walk(function) if isinstance(node, ast.If)):
+            for target, value in (pair for statement in block.body for pair in set_speeds(statement)):
+                message = ast.unparse(target).removesuffix(".linear.x")
+                once = message in sent - own and message.removeprefix("self.") in made
+                again = any(
+                    ast.unparse(each) == message and id(given) not in nodes and message.startswith("self.")
+                    for each, given in assigned(tree)
                 )
+                zero = any(
+                    is_zero(other) or not isinstance(other, ast.Constant)
+                    for each, other in set_speeds(tree)
+                    if ast.unparse(each) == ast.unparse(target) and id(other) not in nodes
+                )
+                if once and not again and not zero and not is_zero(value):
+                    yield (
+                        target.lineno,
+                        "endless",
+                        f"{message} is one message for all calls and keeps what is set here, below  "
+                        f"if {ast.unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 "
+                        "then, or make a new Twist() in every call",
+                    )
+
+
+def refreshed(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a start that another callback sets anew each time it is called."""
+    starts = {
+        ast.unparse(part.right)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.BinOp | ast.Compare)
+        for part in ast.walk(node)
+        if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Sub) and isinstance(part.right, ast.Attribute)
+    }
+    values = set_to(tree)
+    for function in (each for each in functions(tree) if each.name != "__init__"):
+        own = {ast.unparse(part.right) for part in ast.walk(function) if isinstance(part, ast.BinOp)}
+        for statement in function.body:
+            for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
+                name = ast.unparse(target)
+                if name in starts - own and any(last_name(each) in TIMES for each in ast.walk(value)) and values[name]:
+                    yield (
+                        statement.lineno,
+                        "endless",
+                        f"{name} = {ast.unparse(value)[:40]} sets the start anew in every call of {function.name}, so "
+                        "the time since then stays short: set it once, if it is None",
+                    )
 
 
 def default_messages(tree: ast.AST) -> Iterator[Suspect]:
@@ -248,5 +282,6 @@ def _may_stop(block: ast.If) -> bool:
 
 
 LOOKS = (
-    computed_once, kept_messages, default_messages, outside_the_condition, long_times, no_time_at_all, not_read, caught,
+    computed_once, kept_messages, refreshed, default_messages, outside_the_condition, long_times, no_time_at_all,
+    not_read, caught,
 )  # fmt: skip

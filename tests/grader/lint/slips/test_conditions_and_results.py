@@ -83,6 +83,7 @@ SLIPS = {
     "t > 0 or t < 5 holds for every t": ("x = t > 0 or t < 5", "x = t < 0 or t > 5"),
     "t > 5 and t < 0 never holds": ("x = t > 5 and t < 0", "x = t > 0 and t < 5"),
     "holds for every r, because": ("x = r > m.range_min or r < m.range_max", "x = r > m.range_min and r < m.range_max"),
+    "m.range_max < r < m.range_min never holds": ("x = m.range_max < r < m.range_min", "x = m.range_min < r < m.range_max"),
     "has the same bound twice": ("x = m.range_min <= r <= m.range_min", "x = m.range_min <= r <= m.range_max"),
     "self.start stays None, because what stands below sets self.begin": (NONE.format("begin"), NONE.format("start")),
     "start is None here in every call": (
@@ -114,6 +115,16 @@ SLIPS = {
         RESET.format("    self.out.publish(Float32(data=self.near))\n    self.near = math.inf"),
     ),
     "over returns nothing, so self.over() in line 5 is None": (OVER.format("t > 5"), OVER.format("return t > 5")),
+    "self.over without brackets is the method itself": (
+        OVER.format("return t > 5").replace("self.over()", "self.over"), OVER.format("return t > 5"),
+    ),
+    "self.halt without brackets names the function": (
+        "class N:\n    def halt(self): go()\n    def tick(self):\n        self.halt\n",
+        "class N:\n    def halt(self): go()\n    def tick(self):\n        self.halt()\n",
+    ),
+    "self.state is never 'stop': line 1 sets it to 'Stop'": (
+        "self.state = 'Stop'\nif self.state == 'stop': go()\n", "self.state = 'stop'\nif self.state == 'stop': go()\n",
+    ),
     "t > 5 compares and throws the result away": (OVER.format("t > 5"), OVER.format("return t > 5")),
     "self.timer names this timer now": (TIMERS.format("timer"), TIMERS.format("end")),
     "self.zero - self.seconds() is negative": (

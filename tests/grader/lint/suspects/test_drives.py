@@ -53,6 +53,15 @@ WRONG = {
     "stands behind the condition of line 14": (
         "endless", ("            command.linear.x", "            pass\n        command.linear.x"),
     ),
+    "go is one message for all calls": (
+        "endless", ("class Driver", "go = Twist()\n\n\nclass Driver"), ("        command = Twist()\n", ""),
+        ("command.linear.x", "go.linear.x"), ("publish(command)", "publish(go)"),
+    ),
+    "sets the start anew in every call of on_odometry": (
+        "endless", ("        self.create_timer", PLACE + "        self.create_timer"),
+        ("odometry.pose.pose.position.x", "odometry.header.stamp.sec"), ("now - self.first", "now - self.way"),
+    ),
+    "int(passed) == 5 holds for a moment": ("again", ("passed < 5.0", "not int(passed) == 5")),
     "compares a time in seconds with 50": ("endless", ("passed < 5.0", "passed < 50")),
     "nothing in the file asks how much time has passed": (
         "endless",

@@ -48,6 +48,9 @@ WRONG = {
     ),
     "it drives the robot backwards; 0 stops it": drive(lambda now, calls: GO if now < 5.2 else (-0.5, 0.0)),
     "the sign of angular.z changes from command": drive(lambda now, calls: (0.5, 0.1 * (-1) ** calls)),
+    "angular.z changes from command to command, between 0.00 and": drive(
+        lambda now, calls: (0.5, 0.7 * math.sin(0.6 * (now - TICK))) if now < 5.2 else STOP
+    ),
     "no slight turn": drive(scaled(1, 6)),
     "the speed in km/h": drive(scaled(3.6, 1)),
     "the speed in cm/s": drive(scaled(100, 1)),

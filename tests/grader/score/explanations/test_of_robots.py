@@ -221,6 +221,10 @@ def test_a_remapping_the_wrong_way_round_is_named_with_its_line():
     assert "exchanged: the old" not in said
 
 
+def test_a_robot_with_both_wheels_on_one_side_falls_for_that(built):
+    assert "both wheels are on the same side" in standing.falls_over(built(("0 -0.15 0.06", "0 0.15 0.06")))
+
+
 def test_wheels_that_slip_may_hang_by_less(built):
     low = built(('<origin xyz="-0.16 0 0.03"/>', '<origin xyz="-0.16 0 0.028"/>'))
     assert driving.hangs(low) == ""
