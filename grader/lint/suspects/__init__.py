@@ -17,6 +17,7 @@ from gz_course.grader.lint.suspects import (
     feedback,
     gyroscopes,
     headings,
+    hidden_errors,
     known_places,
     patrols,
     pictures,
@@ -36,6 +37,7 @@ LOOKS = (
     *bearings.LOOKS,
     *feedback.LOOKS,
     *drives.LOOKS,
+    *hidden_errors.LOOKS,
 )
 MOST = 12  # suspects kept
 

@@ -10,8 +10,6 @@ from gz_course.grader.lint.slips.time_units import unit_of
 from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
 
 LONG = 8.0  # [s] more is no drive of a run
-ANY_ERROR = ("", "Exception", "TypeError", "AttributeError", "NameError")
-SAYING = frozenset({"error", "warning", "warn", "fatal", "info", "print", "print_exc"})
 TIMES = frozenset({"now", "get_clock", "stamp", "time", "monotonic", "perf_counter", "sleep", "nanoseconds", "clock"})
 
 
@@ -182,24 +180,6 @@ def default_messages(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
-def caught(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a handler that goes on after any error, or after that of wrong types, and says nothing of it."""
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Try):
-            continue
-        for handler in node.handlers:
-            kind = ast.unparse(handler.type) if handler.type is not None else ""
-            names = called(handler)
-            again = any(isinstance(each, ast.Raise) for each in ast.walk(handler))
-            if kind in ANY_ERROR and not names & SAYING and not again:
-                yield (
-                    handler.lineno,
-                    "endless",
-                    f"{f'except {kind}'.strip()}: hides an error of the lines below try, line {node.lineno}, in "
-                    "every call: take it away, and Python names the error",
-                )
-
-
 def long_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time in seconds that is compared with far more of them than a drive takes."""
     numbers, values = named_numbers(tree), set_to(tree)
@@ -283,5 +263,5 @@ def _may_stop(block: ast.If) -> bool:
 
 LOOKS = (
     computed_once, kept_messages, refreshed, default_messages, outside_the_condition, long_times, no_time_at_all,
-    not_read, caught,
+    not_read,
 )  # fmt: skip

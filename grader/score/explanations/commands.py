@@ -22,7 +22,7 @@ from gz_course.grader.registry import modules
 from gz_course.grader.score.suspects import suspect
 
 MOST = 2  # explanations that are named
-SUSPECTS = ("endless", "by_place", "again")  # what suspects of a drive are about
+SUSPECTS = ("endless", "by_place", "again", "hidden")  # what suspects of a drive are about
 
 
 @dataclass(frozen=True)

@@ -126,7 +126,7 @@ def never_ends(drive: Drive) -> str:
     turning = np.abs(drive.angular[:, 2]) > 0.01
     if turning.any() and not turning[-1] and len(turning) - np.flatnonzero(turning)[-1] > 3:
         return ""  # `drives_on_straight` says it
-    if why := drive.suspects.get("endless") or drive.suspects.get("by_place"):
+    if why := next(filter(None, map(drive.suspects.get, ("endless", "by_place", "hidden"))), ""):
         return f"{len(drive.times)} commands in a row drive the robot and not one stops it: {why}"
     return (
         f"{len(drive.times)} commands in a row drive the robot and not one stops it: what your node compares does not "

@@ -83,7 +83,9 @@ SLIPS = {
     "t > 0 or t < 5 holds for every t": ("x = t > 0 or t < 5", "x = t < 0 or t > 5"),
     "t > 5 and t < 0 never holds": ("x = t > 5 and t < 0", "x = t > 0 and t < 5"),
     "holds for every r, because": ("x = r > m.range_min or r < m.range_max", "x = r > m.range_min and r < m.range_max"),
-    "m.range_max < r < m.range_min never holds": ("x = m.range_max < r < m.range_min", "x = m.range_min < r < m.range_max"),
+    "m.range_max < r < m.range_min never holds": (
+        "x = m.range_max < r < m.range_min", "x = m.range_min < r < m.range_max",
+    ),
     "has the same bound twice": ("x = m.range_min <= r <= m.range_min", "x = m.range_min <= r <= m.range_max"),
     "self.start stays None, because what stands below sets self.begin": (NONE.format("begin"), NONE.format("start")),
     "start is None here in every call": (

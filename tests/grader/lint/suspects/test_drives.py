@@ -70,8 +70,8 @@ WRONG = {
     "self.done = True changes nothing: nothing reads self.done": (
         "endless", ("        if passed", "        if passed > 5:\n            self.done = True\n        if passed"),
     ),
-    "except TypeError: hides an error": (
-        "endless",
+    "except TypeError: hides the errors of the lines below try, line 12": (
+        "hidden",
         (
             "        passed = (now - self.first).nanoseconds / 1e9\n",
             "        try:\n            passed = now - self.first\n        except TypeError:\n            passed = 0\n",

@@ -188,3 +188,11 @@ def test_good_scans_come(record, found, scans, frame, words):
 def test_why_no_scan_comes(record, found, bridges, words):
     recording = record({}, facts={"sim_seconds": 6.0, "bridges": bridges})
     assert words in found("scans", recording, topic="scan", frame="lidar_link").explanation
+
+
+def test_an_argument_of_another_name_is_named(record, found):
+    trial = json.dumps({"poses": {}, "parameters": {"x": "1.5", "yaw": "0"}})
+    places = [{"file": "a.launch.py", "line": 3, "name": name, "default": "0"} for name in ("x_pose", "y", "yaw")]
+    recording = record(truth(), facts={"launch": {}, "declared": places}, trial_parameters=trial)
+    said = found("spawned", recording, robot="scout", x="x", y="y", yaw="yaw").explanation
+    assert said.endswith("declares no argument called x; it declares x_pose, y, yaw"), said
