@@ -17,6 +17,7 @@ from functools import cache
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
 from gz_course.grader.score.suspects import suspect
@@ -106,6 +107,9 @@ class WantedDrive:
         linear, angular = (np.stack([each.values for each in part], axis=1) for part in parts)
         ended = min(recording.ended_s, float(recording.properties("run")["duration"]))
         suspects = {about: words for about in SUSPECTS if (words := suspect(recording, about))}
+        decides = recording.facts().get("of_the_drive", [])
+        if len(decides) == 1:
+            suspects["decides"] = shown(f"line {decides[0]['line']}, `{decides[0]['code']}`", 200)
         return explain(Drive(times / 1e9, linear, angular, ended, self.speed, self.seconds, suspects))
 
 

@@ -128,11 +128,12 @@ def never_ends(drive: Drive) -> str:
         return ""  # `drives_on_straight` says it
     if why := next(filter(None, map(drive.suspects.get, ("endless", "by_place", "hidden"))), ""):
         return f"{len(drive.times)} commands in a row drive the robot and not one stops it: {why}"
+    decides = f"{drive.suspects['decides']} decides that, and it never changes; " if "decides" in drive.suspects else ""
     return (
-        f"{len(drive.times)} commands in a row drive the robot and not one stops it: what your node compares does not "
-        f"reach its limit in {drive.ended:.0f} s (a count of ticks, nanoseconds without the seconds, a start that is "
-        f"set anew in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it never "
-        "compares"
+        f"{len(drive.times)} commands in a row drive the robot and not one stops it: {decides}what your node compares "
+        f"does not reach its limit in {drive.ended:.0f} s (a count of ticks, nanoseconds without the seconds, a start "
+        f"that is set anew in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it "
+        "never compares"
     )
 
 

@@ -152,6 +152,8 @@ def suspected(about, words, program, period=0.1):
 
 def test_a_suspect_is_named_once_its_symptom_is_seen():
     assert suspected("endless", "line 7: x", lambda now, calls: GO).endswith("not one stops it: line 7: x")
+    holds = suspected("decides", "line 7, `if a < 5:`", lambda now, calls: GO)
+    assert "not one stops it: line 7, `if a < 5:` decides that, and it never changes; what your node compares" in holds
     assert "line 7" not in suspected("endless", "line 7: x", right)
     again = suspected("again", "line 9: y", lambda now, calls: STOP if now == 5.25 else GO)
     assert again.endswith("at 5.50 s the robot is driven again: line 9: y")
