@@ -118,7 +118,9 @@ def _stuck(
         return "commanded to drive straight, it turned on the spot: the axes of its wheels point in opposite directions"
     said = launch_facts(recording).get("model_warnings", [])
     if driver := next((text for text in said if "DiffDrive" in text or "left out" in text), ""):
-        return f"gz sim says of the robot: {shown(driver, 300)}"
+        absent = "names joint" in driver and "did you mean" not in driver
+        merged = "; a joint of type fixed is merged with the link it hangs on: a wheel's joint is continuous"
+        return f"gz sim says of the robot: {shown(driver, 300)}{merged if absent else ''}"
     if body and (elsewhere := commands_elsewhere(body, bridges(recording), f"/{topic}")):
         return f"its wheels did not turn: {elsewhere}"
     why = driving.does_not_drive(body) if body else ""

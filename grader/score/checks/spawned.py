@@ -86,4 +86,6 @@ def _why_not(recording: Recording, robot: str) -> tuple[str, str]:
         return "create was still at work on the robot when the run was over", parts
     if calls:
         return "Gazebo refused the model that create asked for", ""
-    return "nothing asked Gazebo to create a model: create of ros_gz_sim does that", ""
+    other = next(deaths(recording), None)
+    ended = f"; {other.process} ended with exit code {other.code}{other.words}" if other is not None else ""
+    return f"nothing asked Gazebo to create a model: create of ros_gz_sim does that{ended}", ""
