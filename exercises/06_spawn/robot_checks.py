@@ -76,6 +76,7 @@ def joints_move(recording, parameters):
             "sensor_msgs/msg/JointState",
             to_gz=False,
             said=logged_error(recording, "parameter_bridge"),
+            remapped=recording.facts().get("remappings", []),
         ):
             return Finding(False, expected, "no message came on /joint_states", explanation=why)
         bridge = next(bridge for bridge in bridges(recording) if bridge.ros_topic == "/joint_states")

@@ -46,6 +46,11 @@ def before_speeds(content: bytes) -> Places:
     return places_in(content, lambda tree: _before_speeds(_Program(tree)))
 
 
+def of_the_drive(content: bytes) -> Places:
+    """Return `line` and `code` of the conditions on which a linear.x other than 0 is sent; a start is none of them."""
+    return places_in(content, lambda tree: _of_the_drive(_Program(tree)))
+
+
 @dataclass
 class _Program:
     """The functions of a file, and what each statement assigns."""
@@ -224,6 +229,19 @@ def _conditions(program: _Program) -> Places:
                 said = {"line": test.lineno, "code": _short(form.format(code))}
                 places[call.lineno, test.lineno] = said | {"sends": call.lineno, "topic": topics.get(publisher, "")}
     return [places[key] for key in sorted(places)][: 2 * MOST]
+
+
+def _of_the_drive(program: _Program) -> Places:
+    found = {}
+    for node in ast.walk(program.tree):
+        if not isinstance(node, ast.Assign) or (isinstance(node.value, ast.Constant) and node.value.value == 0):
+            continue
+        if any(ast.unparse(target).endswith("linear.x") for target in node.targets):
+            for test, form in _tests(program, node):
+                code = ast.unparse(test)
+                if "is None" not in code and "__name__" not in code:
+                    found[test.lineno] = {"line": test.lineno, "code": _short(form.format(code))}
+    return [found[line] for line in sorted(found)][:MOST]
 
 
 def _before_speeds(program: _Program) -> Places:

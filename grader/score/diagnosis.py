@@ -270,6 +270,8 @@ def _unheard(facts: dict[str, Any]) -> str:
     heard = [e["topic"] for e in _of(facts, "subscription") if e["topic"] in facts.get("offered", {})]
     if not heard:
         return ""
+    if caught := next((each for each in facts.get("suspects", []) if each["about"] == "hidden"), None):
+        return f", although it hears {heard[0]}: line {caught['line']}: {caught['said']}"
     return (
         f", although it hears {heard[0]}: a condition before publish() never holds, or an error is caught, such as "
         "that of a transform between frames that do not exist"

@@ -120,6 +120,11 @@ MEANINGS = (
         "True}}], and not declared again",
     ),
     (
+        re.compile(r"command 'xacro (?!/)([\w./-]+)[^']*' failed.*No such file or directory", re.DOTALL),
+        "{0} was looked for in the folder in which ros2 launch was called, not beside the launch file: give its full "
+        "path, str(Path(__file__).parent / '{0}')",
+    ),
+    (
         re.compile(r"Unknown substitution command \[(\w+)"),
         "in xacro, $(...) calls a command; the value of a property is written in braces, ${{{0}}}",
     ),

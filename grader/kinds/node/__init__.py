@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
-from gz_course.grader.lint.origins import conditions, origins
+from gz_course.grader.lint.origins import conditions, of_the_drive, origins
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.message_fields import message_fields
 from gz_course.grader.lint.slips.sequences import silent_log
@@ -75,6 +75,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     places = {
         "conditions": conditions(content),
         "origins": origins(content),
+        "of_the_drive": of_the_drive(content),
         "lookups": lookups(content),
         "shared_headers": shared_headers(content),
         "silent_log": silent_log(content),

@@ -14,6 +14,7 @@ from gz_course.grader.lint.slips import (
     action_servers,
     angles,
     callbacks,
+    conditions,
     everyday,
     exact_sums,
     late_binding,
@@ -26,11 +27,14 @@ from gz_course.grader.lint.slips import (
     not_what_they_seem,
     parameters,
     rotations,
+    resets,
+    results,
     scan_callbacks,
     searches,
     sequences,
     sorted_rays,
     starts,
+    states,
     time_units,
     transforms,
     unreached,
@@ -49,6 +53,8 @@ ROOMS = (
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS,
+    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, conditions.LOOKS,
+    resets.LOOKS, results.LOOKS, states.LOOKS,
 )  # fmt: skip
 
 

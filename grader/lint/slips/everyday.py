@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.callbacks import handed_over
-from gz_course.grader.lint.syntax import Place, calls
+from gz_course.grader.lint.syntax import Place, calls, functions
 
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
@@ -41,11 +41,12 @@ def main_not_called(tree: ast.Module) -> Iterator[Place]:
 
 
 def not_called(tree: ast.AST) -> Iterator[Place]:
-    """Find a statement that only names a function, such as `self.timer.cancel`."""
+    """Find a statement that only names a function, such as `self.timer.cancel`, or a method of the file."""
+    own = {f"self.{function.name}" for function in functions(tree) if not function.decorator_list}
     for node in ast.walk(tree):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Attribute | ast.Name):
             name = ast.unparse(node.value)
-            if name.rpartition(".")[2] in ACTIONS | {"main"}:
+            if name.rpartition(".")[2] in ACTIONS | {"main"} or name in own:
                 yield node.lineno, f"{name} without brackets names the function and does not call it: {name}(...)"
 
 

@@ -107,4 +107,27 @@ def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
-LOOKS = (local_for_attribute, hidden_methods, defined_twice, attribute_of_the_class)
+def one_name_for_two_timers(tree: ast.AST) -> Iterator[Place]:
+    """Find two timers that are given the same name, of which cancel() then ends the second one only."""
+    for owner in _classes(tree):
+        cancelled = {
+            ast.unparse(node.value)
+            for node in ast.walk(owner)
+            if isinstance(node, ast.Attribute) and node.attr in ("cancel", "reset")
+        }
+        for method in _methods(owner):
+            made: dict[str, int] = {}
+            for statement in method.body:
+                if not isinstance(statement, ast.Assign) or "create_timer" not in ast.unparse(statement.value):
+                    continue
+                name = ast.unparse(statement.targets[0])
+                if name in made and name in cancelled:
+                    yield (
+                        statement.lineno,
+                        f"{name} names this timer now, and no more that of line {made[name]}: {name}.cancel() does not "
+                        "end the first one; give each timer a name of its own",
+                    )
+                made[name] = statement.lineno
+
+
+LOOKS = (one_name_for_two_timers, local_for_attribute, hidden_methods, defined_twice, attribute_of_the_class)

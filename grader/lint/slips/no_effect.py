@@ -23,6 +23,8 @@ def thrown_away(tree: ast.AST) -> Iterator[Place]:
         code = ast.unparse(node.value)[:60]
         if isinstance(node.value, ast.Compare) and isinstance(node.value.ops[0], ast.Eq):
             yield node.lineno, f"{code} compares and throws the result away: = assigns, == compares"
+        elif isinstance(node.value, ast.Compare):
+            yield node.lineno, f"{code} compares and throws the result away: return, if or = keeps it"
         elif isinstance(node.value, ast.BinOp):
             yield node.lineno, f"{code} is computed and thrown away: += or = keeps the result"
 

@@ -1,11 +1,11 @@
-"""A time that is measured since the last call, because its start is set anew each time."""
+"""A time that is measured since the last call, because its start is set anew, or that is added up in every call."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions
+from gz_course.grader.lint.syntax import Place, assigned, functions
 
 LONG = 1.0  # [s] or more is no time between two calls
 
@@ -53,4 +53,39 @@ def _is_long(value: ast.expr) -> bool:
     return any(number >= LONG for number in numbers)
 
 
-LOOKS = (set_anew,)
+def added_up(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.driven += now - self.start` in a callback that does not set the start anew."""
+    once = {
+        ast.unparse(target)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.If) and _asks_for_none(node.test)
+        for statement in node.body
+        for target, _ in assigned(statement)
+    }
+    for function in functions(tree):
+        inside = {
+            id(each)
+            for node in ast.walk(function)
+            if isinstance(node, ast.If) and _asks_for_none(node.test)
+            for each in ast.walk(node)
+        }
+        again = {ast.unparse(target) for target, value in assigned(function) if id(value) not in inside}
+        for node in ast.walk(function):
+            if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+                continue
+            for each in ast.walk(node.value):
+                if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub):
+                    start = ast.unparse(each.right)
+                    if start in once - again and start.startswith("self."):
+                        yield (
+                            node.lineno,
+                            f"{ast.unparse(node)[:70]} adds the whole time since {start} in every call, although "
+                            f"{start} stays the same: that time is a difference, with = and not +=",
+                        )
+
+
+def _asks_for_none(test: ast.expr) -> bool:
+    return isinstance(test, ast.UnaryOp) or ast.unparse(test).endswith("is None")
+
+
+LOOKS = (set_anew, added_up)

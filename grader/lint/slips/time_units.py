@@ -19,6 +19,7 @@ LONGEST = 200.0  # [s] so is a longer one: no run takes that long
 WALL = frozenset({"time.time", "time.monotonic", "time.perf_counter"})
 START = re.compile(r"(?:start|begin|first|t0|t_0)(?:_?time|ed|_?at)?$")
 STEPS = 8  # names followed at most
+HOLDS = ">= holds from then on"
 
 
 def wrong_units(tree: ast.AST) -> Iterator[Place]:
@@ -28,6 +29,9 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.Compare) or len(node.ops) != 1:
             continue
+        if isinstance(node.ops[0], ast.Eq) and _lasts(node.left, values) != _lasts(node.comparators[0], values):
+            code = ast.unparse(node)[:70]
+            yield node.lineno, f"{code}: a time is hardly ever exactly this one when it is looked at; {HOLDS}"
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
             unit, limit = _unit(one, values, numbers, STEPS), number(other, numbers)
             if unit is None or not limit or isinstance(node.ops[0], ast.Is | ast.IsNot | ast.NotEq):
@@ -37,11 +41,21 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
             if isinstance(node.ops[0], ast.Eq):
                 yield (
                     node.lineno,
-                    f"{code}: a time is hardly ever exactly this number when it is looked at; >= holds from then on",
+                    f"{code}: a time is hardly ever exactly this number when it is looked at; {HOLDS}",
                 )
             elif seconds > LONGEST or not _name(unit) or (seconds < SHORTEST and not math.isclose(unit, 1.0)):
                 yield node.lineno, f"{code}: {_said(unit, limit, seconds)}"
     yield from _durations(tree, numbers)
+
+
+def _lasts(node: ast.expr, values: Mapping[str, list[ast.expr]]) -> bool:
+    """Return whether an expression is a Duration that is not 0, or the name of one."""
+    given = values.get(ast.unparse(node), []) if isinstance(node, ast.Name | ast.Attribute) else [node]
+    return len(given) == 1 and (
+        isinstance(given[0], ast.Call)
+        and ast.unparse(given[0].func).rpartition(".")[2] == "Duration"
+        and any(number(each.value, {}) for each in given[0].keywords)
+    )
 
 
 def _name(unit: float) -> str:
@@ -73,6 +87,7 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
 def negative_times(tree: ast.AST) -> Iterator[Place]:
     """Find `start - now`, which is negative and so always less than any limit."""
     values = _values(tree)
+    fresh = {name: given for name, given in values.items() if not name.startswith("self.")}
     inside_abs = {
         id(inner)
         for node in ast.walk(tree)
@@ -84,12 +99,42 @@ def negative_times(tree: ast.AST) -> Iterator[Place]:
             continue
         left, right = ast.unparse(node.left), ast.unparse(node.right)
         now = right.endswith(".now()") or [ast.unparse(each)[-6:] for each in values.get(right, [])] == [".now()"]
-        if START.search(left) and now:
+        kept = left.startswith("self.") and _was_read(node.left, values, STEPS)
+        if (START.search(left) and now) or (kept and not START.search(right) and _was_read(node.right, fresh, STEPS)):
             yield (
                 node.lineno,
                 f"{left} - {right} is negative, because {right} is the later one: the time that has passed is "
                 f"{right} - {left}",
             )
+
+
+def _was_read(node: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) -> bool:
+    """Return whether a time is what a clock said, in whatever unit, and no time was added to it or taken from it."""
+    if steps <= 0:
+        return False
+
+    def again(each: ast.expr) -> bool:
+        return _was_read(each, values, steps - 1)
+
+    match node:
+        case ast.Call(func=ast.Attribute(attr="now")):
+            return True
+        case (
+            ast.Call(func=ast.Attribute(attr="to_msg", value=of))
+            | ast.Attribute(attr="nanoseconds" | "sec" | "nanosec", value=of)
+        ):
+            return again(of)
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            return again(left) and again(right)
+        case ast.BinOp(left=left, op=ast.Mult() | ast.Div() | ast.FloorDiv()):
+            return again(left)
+        case ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name)) if values.get(f"{name}()"):
+            return all(again(each) for each in values[f"{name}()"])
+        case ast.Name() | ast.Attribute():
+            given = [each for each in values.get(ast.unparse(node), []) if number(each, {}) is None]
+            given = [each for each in given if not _nothing(each)]
+            return bool(given) and all(again(each) for each in given)
+    return False
 
 
 def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
@@ -106,6 +151,12 @@ def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
             ]
             found.setdefault(f"{node.name}()", []).extend(returned)
     return found
+
+
+def unit_of(node: ast.expr, values: dict[str, list[ast.expr]], numbers: Mapping[str, Number]) -> float | None:
+    """Return the unit [s] of an expression, rounded to that of a name; None if it is unknown."""
+    unit = _unit(node, values, numbers, STEPS)
+    return None if unit is None else next((each for each in UNITS if math.isclose(each, unit, rel_tol=1e-6)), unit)
 
 
 def _unit(node: ast.expr, values: dict[str, list[ast.expr]], numbers: Mapping[str, Number], steps: int) -> float | None:
@@ -153,4 +204,33 @@ def _common(units: list[float | None]) -> float | None:
     return first if first is not None and all(u is not None and math.isclose(u, first) for u in units) else None
 
 
-LOOKS = (wrong_units, negative_times)
+def wrong_fractions(tree: ast.AST) -> Iterator[Place]:
+    """Find `sec + nanosec * 1e-6`: the nanoseconds of a time, added to its seconds with another factor than 1e-9."""
+    numbers = named_numbers(tree)
+    parts: dict[str, str] = {}  # names of the two parts of a time
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign(targets=[ast.Tuple(elts=[one, other])], value=ast.Call(func=ast.Attribute(attr=name))):
+                if name == "seconds_nanoseconds":
+                    parts |= {ast.unparse(one): "sec", ast.unparse(other): "nanosec"}
+    for node in ast.walk(tree):
+        match node:
+            case ast.BinOp(left=whole, op=ast.Add(), right=ast.BinOp(left=part, op=operator, right=by)):
+                factor = number(by, numbers)
+                if _part(whole, parts) != "sec" or _part(part, parts) != "nanosec" or not factor:
+                    continue
+                factor = 1 / factor if isinstance(operator, ast.Div) else factor
+                if isinstance(operator, ast.Mult | ast.Div) and not math.isclose(factor, 1e-9, rel_tol=1e-3):
+                    yield (
+                        node.lineno,
+                        f"{ast.unparse(node)[:70]}: a nanosecond is 1e-9 s, and here it counts as {factor:g} s: "
+                        f"{ast.unparse(whole)} + {ast.unparse(part)} / 1e9",
+                    )
+
+
+def _part(node: ast.expr, parts: Mapping[str, str]) -> str:
+    name = ast.unparse(node)
+    return parts.get(name, name.rpartition(".")[2])
+
+
+LOOKS = (wrong_units, negative_times, wrong_fractions)

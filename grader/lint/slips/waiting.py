@@ -12,6 +12,7 @@ SPINS = frozenset(
     {"spin", "spin_once", "spin_some", "spin_until_future_complete", "wait_for_message", "wait_for_service"}
 )
 CLOCKS = frozenset({"now", "get_clock", "ok", "sleep", "get_subscription_count", "count_subscribers"})
+PAUSE = 0.05  # [s] of sleep between two calls of spin_once
 THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "ThreadPoolExecutor", "Process"})
 
 
@@ -138,8 +139,25 @@ def shut_down_first(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
+def sleeps_between_spins(tree: ast.AST) -> Iterator[Place]:
+    """Find time.sleep() in the loop that calls spin_once()."""
+    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.While | ast.For)):
+        found = list(calls(loop))
+        if not any(name == "spin_once" for _, name in found):
+            continue
+        for call, _ in found:
+            value = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
+            if ast.unparse(call.func) in ("time.sleep", "sleep") and isinstance(value, int | float) and value >= PAUSE:
+                yield (
+                    call.lineno,
+                    f"{ast.unparse(call)} in the loop with spin_once(): while it sleeps, no callback runs, and each "
+                    "spin_once() runs one; leave it out, or call rclpy.spin(node)",
+                )
+                return
+
+
 def _is_call(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)
 
 
-LOOKS = (rates, loops_before_spin, executors, other_node, shut_down_first)
+LOOKS = (rates, loops_before_spin, executors, other_node, shut_down_first, sleeps_between_spins)

@@ -1,4 +1,4 @@
-"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays or goals.
+"""Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays, goals or drives.
 
 Each suspect says what it is about. A check that has seen the symptom in the recording names the suspect of that kind
 (`grader/score/suspects.py`); without a symptom nobody hears of it.
@@ -15,10 +15,12 @@ from gz_course.grader.lint.suspects import (
     bias_use,
     bias_while_turning,
     farthest,
+    drives,
     feedback,
     goals,
     gyroscopes,
     headings,
+    hidden_errors,
     known_places,
     old_values,
     patrols,
@@ -46,6 +48,8 @@ LOOKS = (
     *farthest.LOOKS,
     *goals.LOOKS,
     *old_values.LOOKS,
+    *drives.LOOKS,
+    *hidden_errors.LOOKS,
 )
 MOST = 12  # suspects kept
 

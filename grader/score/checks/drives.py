@@ -31,6 +31,7 @@ from gz_course.grader.score.steps import told
 AXES = {"linear_x": ("linear_x", "yaw", "m/s"), "angular_z": ("angular_z", "distance", "rad/s")}
 TYPE = "geometry_msgs/msg/Twist"
 STILL = 0.05  # of the commanded speed: less is no motion
+LIFTED = 0.001  # [m] by which wheels that slip must be higher than the lowest part, so that it carries the robot
 TURNED = 0.1  # [rad] that a wheel must turn to have moved
 
 
@@ -98,7 +99,12 @@ def _silent(recording: Recording, topic: str) -> str:
     if taken.any():
         return ""
     why = why_not_carried(
-        bridges(recording), f"/{topic}", TYPE, to_gz=True, said=logged_error(recording, "parameter_bridge")
+        bridges(recording),
+        f"/{topic}",
+        TYPE,
+        to_gz=True,
+        said=logged_error(recording, "parameter_bridge"),
+        remapped=recording.facts().get("remappings", []),
     )
     said = f"no bridge carried the commands on /{topic} ({TYPE}) from ROS to Gazebo"
     return f"{said}: {why}" if why else said
@@ -112,7 +118,9 @@ def _stuck(
         return "commanded to drive straight, it turned on the spot: the axes of its wheels point in opposite directions"
     said = launch_facts(recording).get("model_warnings", [])
     if driver := next((text for text in said if "DiffDrive" in text or "left out" in text), ""):
-        return f"gz sim says of the robot: {shown(driver, 300)}"
+        absent = "names joint" in driver and "did you mean" not in driver
+        merged = "; a joint of type fixed is merged with the link it hangs on: a wheel's joint is continuous"
+        return f"gz sim says of the robot: {shown(driver, 300)}{merged if absent else ''}"
     if body and (elsewhere := commands_elsewhere(body, bridges(recording), f"/{topic}")):
         return f"its wheels did not turn: {elsewhere}"
     why = driving.does_not_drive(body) if body else ""
@@ -127,11 +135,14 @@ def _stuck(
     if np.ptp(np.array(rows), axis=0).max(initial=0.0) < TURNED:
         if why:
             return f"its wheels did not turn: {why}"
+        if body and (radius := driving.other_radius(body)):
+            return f"its wheels hardly turned: {radius}"
         return (
             "its wheels did not turn: no plugin drives them, or the plugin listens to another topic or drives joints "
             "of other names"
         )
-    more = why or (driving.slippery(body) if body else "") or "they turn about the wrong axis, or hang in the air"
+    lifted = (driving.slippery(body) or driving.hangs(body, LIFTED)) if body else ""
+    more = why or lifted or "they turn about the wrong axis, or hang in the air"
     return f"its wheels turned, but did not roll along the ground: {more}"
 
 

@@ -92,7 +92,8 @@ def _percent(fraction: float) -> str:
 def _why_none(recording: Recording, topic: str, body: Robot | None) -> str:
     """Return why no scan came: no bridge, its direction or type is wrong, or nothing publishes in Gazebo."""
     made = bridges(recording)
-    if why := why_not_carried(made, topic, TYPE, to_gz=False, said=logged_error(recording, "parameter_bridge")):
+    said, remapped = logged_error(recording, "parameter_bridge"), recording.facts().get("remappings", [])
+    if why := why_not_carried(made, topic, TYPE, to_gz=False, said=said, remapped=remapped):
         return why
     bridge = next(each for each in made if each.ros_topic == topic)
     if body and (why := scanning.no_scan(body, bridge)):

@@ -17,7 +17,15 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.explanations.of_robots.description import at_work_on, description_meaning
 from gz_course.grader.score.explanations.of_robots.placing import misplaced
-from gz_course.grader.score.launched import argument, complaint, deaths, launch_facts, logged_error, looked_elsewhere
+from gz_course.grader.score.launched import (
+    argument,
+    complaint,
+    deaths,
+    declared,
+    launch_facts,
+    logged_error,
+    looked_elsewhere,
+)
 from gz_course.grader.score.steps import told
 from gz_course.sim.did_you_mean import nearest_name
 
@@ -53,6 +61,8 @@ def spawned(recording: Recording, parameters: Table) -> Finding:
     if ignored == wrong and "converted" not in why:
         words = ", ".join(names[axis] for axis in wrong[:-1]) + " and " * (len(wrong) > 1) + names[wrong[-1]]
         why = f"the {'argument' if len(wrong) == 1 else 'arguments'} {words} had no effect on the place of {robot}"
+        unknown = next(filter(None, (declared(recording, names[axis], "") for axis in wrong)), "")
+        why = f"{why}: {unknown}" if unknown else why
     return Finding(False, expected, measured, explanation=why)
 
 
@@ -76,4 +86,6 @@ def _why_not(recording: Recording, robot: str) -> tuple[str, str]:
         return "create was still at work on the robot when the run was over", parts
     if calls:
         return "Gazebo refused the model that create asked for", ""
-    return "nothing asked Gazebo to create a model: create of ros_gz_sim does that", ""
+    other = next(deaths(recording), None)
+    ended = f"; {other.process} ended with exit code {other.code}{other.words}" if other is not None else ""
+    return f"nothing asked Gazebo to create a model: create of ros_gz_sim does that{ended}", ""

@@ -10,17 +10,20 @@ Every file of `of_commands/` is asked; two that fit are both said.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
+from gz_course.grader.score.suspects import suspect
 
 MOST = 2  # explanations that are named
+SUSPECTS = ("endless", "by_place", "again", "hidden")  # what suspects of a drive are about
 
 
 @dataclass(frozen=True)
@@ -28,6 +31,7 @@ class Drive:
     """The commands that arrived, and the drive that was asked for.
 
     `times` [s] (n,); `linear` [m/s] and `angular` [rad/s] x, y, z, shape (n, 3). `ended` is the end of the run [s].
+    `suspects` are words on the places in the student's file that may be the reason, by what they are about.
     """
 
     times: np.ndarray
@@ -36,6 +40,7 @@ class Drive:
     ended: float
     speed: float  # [m/s] asked for
     seconds: float  # [s] asked for
+    suspects: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def moving(self) -> np.ndarray:
@@ -101,7 +106,11 @@ class WantedDrive:
             return ""
         linear, angular = (np.stack([each.values for each in part], axis=1) for part in parts)
         ended = min(recording.ended_s, float(recording.properties("run")["duration"]))
-        return explain(Drive(times / 1e9, linear, angular, ended, self.speed, self.seconds))
+        suspects = {about: words for about in SUSPECTS if (words := suspect(recording, about))}
+        decides = recording.facts().get("of_the_drive", [])
+        if len(decides) == 1:
+            suspects["decides"] = shown(f"line {decides[0]['line']}, `{decides[0]['code']}`", 200)
+        return explain(Drive(times / 1e9, linear, angular, ended, self.speed, self.seconds, suspects))
 
 
 @cache

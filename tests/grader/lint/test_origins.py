@@ -4,7 +4,7 @@ from textwrap import dedent
 
 import pytest
 
-from gz_course.grader.lint.origins import MOST, before_speeds, conditions, origins
+from gz_course.grader.lint.origins import MOST, before_speeds, conditions, of_the_drive, origins
 
 NODE = """
 class Listener(Node):
@@ -94,3 +94,9 @@ def test_long_code_is_cut() -> None:
 def test_what_stands_before_a_speed_is_listed():
     text = "def f(age, c):\n    if age < 1:\n        c.linear.x = age\n    else:\n        c.linear.x = 0.0\n"
     assert before_speeds(text.encode()) == [{"line": 2, "code": "if age < 1:"}]
+
+
+def test_the_condition_on_which_a_drive_goes_on():
+    text = b"def tick():\n    if start is None:\n        begin()\n    if passed < 5:\n        out.linear.x = 0.5\n"
+    assert of_the_drive(text) == [{"line": 4, "code": "if passed < 5:"}]
+    assert of_the_drive(text.replace(b"0.5", b"0.0")) == []

@@ -123,6 +123,13 @@ def test_an_error_of_several_lines_begins_with_its_name(told):
     assert "RuntimeError: first line" in sentence
 
 
+def test_a_handler_that_hides_errors_is_named_where_nothing_is_published(told):
+    place = {"file": "node.py", "line": 9, "about": "hidden", "said": "except: hides the errors"}
+    heard = endpoint("/lidar/scan", SCAN, "subscription")
+    assert "hears /lidar/scan: line 9: except: hides the errors." in told(heard, signals={}, suspects=[place])[1]
+    assert "a condition before publish() never holds" in told(heard, signals={})[1]
+
+
 def test_an_exit_code(told):
     outcome, sentence = told(exit_code=7, exit_at=2.0)
     assert outcome == "student_error"

@@ -17,6 +17,10 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("launch configuration 'word' does not exist", "declares word"),
         ("Unknown substitution command [wheel_radius]. Valid commands are ['find']", "in braces, ${wheel_radius}"),
         ("the command 'xacro robot.urdf.xacro' failed: error: name 'radius' is not defined ", "xacro:property above"),
+        (
+            "the command 'xacro robot.urdf.xacro' failed with exit code 1: [Errno 2] No such file or directory",
+            "str(Path(__file__).parent / 'robot.urdf.xacro')",
+        ),
         ("unknown macro name: xacro:wheel", "no xacro:macro above is called wheel"),
         ("XML parsing error: unbound prefix: line 4, column 2", "xmlns:xacro"),
         ("XML parsing error: mismatched tag: line 60, column 4", "</link>"),

@@ -34,6 +34,11 @@ def smallest_so_far(asked: Asked) -> np.ndarray:
     return np.minimum.accumulate(asked.truth)
 
 
+@predicts("the smallest of all scans before this one: this scan is not among them")
+def smallest_before(asked: Asked) -> np.ndarray:
+    return _before(np.minimum.accumulate(asked.truth), 1)
+
+
 @predicts("the largest of all scans so far, not of this scan: start anew in every callback")
 def largest_so_far(asked: Asked) -> np.ndarray:
     return np.maximum.accumulate(asked.truth)

@@ -35,7 +35,7 @@ def _wrong(drive: Drive, duration: float) -> bool:
 def counts_commands(drive: Drive) -> str:
     """Find a count of ticks of a usual period that makes up the time, although the ticks came less often."""
     _, duration, number = _only_push(drive)
-    if not number or number < 4 or not _wrong(drive, duration):
+    if not number or number < 4 or not _wrong(drive, duration) or "by_place" in drive.suspects:
         return ""
     period = duration / number
     for off in (0, -1):
@@ -111,6 +111,8 @@ def other_duration(drive: Drive) -> str:
         or stops_at_once(drive)
     ):
         return ""
+    if why := drive.suspects.get("by_place"):
+        return f"the robot was driven for {duration:.2f} s, where {drive.seconds:g} s are asked for: {why}"
     for ratio, reason in RATIOS.items():
         if abs(duration - ratio * drive.seconds) <= 0.06 * ratio * drive.seconds + (drive.period or 0.0):
             return f"the robot was driven for {duration:.2f} s, {reason}"

@@ -21,7 +21,7 @@ def only_one(drive: Drive) -> str:
 @explains
 def all_at_once(drive: Drive) -> str:
     together = int(np.sum(drive.times - drive.times[0] < 1e-3))
-    if together < 4:
+    if together < 4 or together < 0.5 * np.count_nonzero(drive.moving):  # a callback of messages that come in bundles
         return ""
     return (
         f"{together} commands came at the same moment, {drive.times[0]:.2f} s: a loop in one callback publishes them, "
@@ -76,6 +76,8 @@ def no_stop(drive: Drive) -> str:
     """Find a drive that ceased without a stop."""
     if len(drive.times) < 2 or all_at_once(drive) or not drive.moving[-1] or drive.ended - drive.times[-1] < 0.8:
         return ""
+    if len(drive.pushes) > 1 and "again" in drive.suspects:
+        return ""  # `begins_again` says it
     return (
         f"the last command came at {drive.times[-1]:.2f} s and drives on: your node falls silent, where a command "
         "of zeros is needed"
@@ -124,11 +126,14 @@ def never_ends(drive: Drive) -> str:
     turning = np.abs(drive.angular[:, 2]) > 0.01
     if turning.any() and not turning[-1] and len(turning) - np.flatnonzero(turning)[-1] > 3:
         return ""  # `drives_on_straight` says it
+    if why := next(filter(None, map(drive.suspects.get, ("endless", "by_place", "hidden"))), ""):
+        return f"{len(drive.times)} commands in a row drive the robot and not one stops it: {why}"
+    decides = f"{drive.suspects['decides']} decides that, and it never changes; " if "decides" in drive.suspects else ""
     return (
-        f"{len(drive.times)} commands in a row drive the robot and not one stops it: what your node compares does not "
-        f"reach its limit in {drive.ended:.0f} s (a count of ticks, nanoseconds without the seconds, a start that is "
-        f"set anew in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it never "
-        "compares"
+        f"{len(drive.times)} commands in a row drive the robot and not one stops it: {decides}what your node compares "
+        f"does not reach its limit in {drive.ended:.0f} s (a count of ticks, nanoseconds without the seconds, a start "
+        f"that is set anew in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it "
+        "never compares"
     )
 
 
@@ -154,6 +159,8 @@ def begins_again(drive: Drive) -> str:
         return ""
     _, end, number = drive.pushes[0]
     again = drive.pushes[1][0]
+    if why := drive.suspects.get("again"):
+        return f"a command of zeros comes at {end:.2f} s, and at {again:.2f} s the robot is driven again: {why}"
     stops = int(np.sum(~drive.moving & (drive.times >= end) & (drive.times < again)))
     if stops <= 2 and number > 3:
         return (

@@ -46,10 +46,24 @@ def grows(drive: Drive) -> str:
 
 
 @explains
+def varies(drive: Drive) -> str:
+    """Find angular.z that rises and falls smoothly in the drive, as a sine of the time does."""
+    values = turning(drive)
+    if len(values) < 8 or grows(drive) or len(np.unique(np.round(values, 3))) < 0.7 * len(values):
+        return ""
+    if np.ptp(values) < 0.1 or ((values > 0.01).any() and (values < -0.01).any()):
+        return ""
+    return (
+        f"angular.z changes from command to command, between {values.min():.2f} and {values.max():.2f} rad/s: a steady "
+        "turn is one and the same rate"
+    )
+
+
+@explains
 def part_of_the_drive(drive: Drive) -> str:
     """Find a turn that ends before the drive, or begins after it has begun."""
     values = np.abs(turning(drive)) > 0.01
-    if len(values) < 6 or not values.any() or values.all() or not drive.moving.any():
+    if len(values) < 6 or not values.any() or values.all() or not drive.moving.any() or varies(drive):
         return ""
     times = drive.times[drive.moving]
     if np.count_nonzero(values[1:] != values[:-1]) != 1 or (np.abs(drive.linear[-1, 0]) > 0.01 and values[0]):
@@ -75,7 +89,9 @@ def an_angle_each_second(drive: Drive) -> str:
 @explains
 def wide_turn(drive: Drive) -> str:
     strong = _strength(drive)
-    if not SLIGHT < strong <= DEGREES or _near(strong, drive.speed) or an_angle_each_second(drive) or grows(drive):
+    if not SLIGHT < strong <= DEGREES or _near(strong, drive.speed) or an_angle_each_second(drive):
+        return ""
+    if grows(drive) or varies(drive):
         return ""
     if strong <= STRONG:
         return f"angular.z was {strong:.2f} rad/s, which is no slight turn: 0.1 rad/s is one"

@@ -180,13 +180,13 @@ def without_collision(robot: Robot) -> str:
     return ""
 
 
-def hangs(robot: Robot) -> str:
-    """Compare the height of the wheels with that of the lowest part."""
+def hangs(robot: Robot, least: float = HANGS) -> str:
+    """Compare the height of the wheels with that of the lowest part, which may be lower by less than `least` [m]."""
     wheels, low = wheels_of(robot), robot.lowest_link()
     if not wheels or low is None:
         return ""
     above = [wheel.link.lowest - low.lowest for wheel in wheels]
-    if not np.isfinite(above).all() or min(above) < HANGS or low.name in {wheel.link.name for wheel in wheels}:
+    if not np.isfinite(above).all() or min(above) < least or low.name in {wheel.link.name for wheel in wheels}:
         return ""
     return (
         f"its wheels hang in the air: {low.lowest_part} reaches {min(above):.3f} m lower than the wheels, "

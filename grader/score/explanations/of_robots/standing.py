@@ -7,6 +7,7 @@ import numpy as np
 from gz_course.grader.score.explanations.of_robots.driving import (
     hangs,
     lies_flat,
+    of_one_side,
     wheels_of,
     without_collision,
     wrong_axis,
@@ -56,6 +57,8 @@ def falls_over(robot: Robot) -> str:
     if low is None:
         return ""
     if said := lies_flat(robot) or without_collision(robot) or hangs(robot):
+        return said
+    if said := of_one_side(robot):
         return said
     points = np.concatenate([shape.corners() for _, shape in robot.shapes()])
     feet = points[points[:, 2] < low.lowest + FEET]

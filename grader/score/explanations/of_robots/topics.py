@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from gz_course.grader.score.graphs import Bridged
 from gz_course.grader.score.robots import Robot
@@ -21,10 +22,17 @@ def heard_elsewhere(who: str, topic: str, bridge: Bridged) -> str:
     )
 
 
-def why_not_carried(made: Iterable[Bridged], topic: str, kind: str, to_gz: bool, said: str = "") -> str:
+def why_not_carried(
+    made: Iterable[Bridged],
+    topic: str,
+    kind: str,
+    to_gz: bool,
+    said: str = "",
+    remapped: Iterable[Mapping[str, Any]] = (),
+) -> str:
     """Return why no bridge carries the ROS topic `topic` of the type `kind` in this direction; empty if one does.
 
-    `said` is an error of the bridge's program.
+    `said` is an error of the bridge's program, `remapped` are the remappings of the launch file.
     """
     every = list(made)
     mine = [bridge for bridge in every if bridge.ros_topic == topic]
@@ -34,6 +42,12 @@ def why_not_carried(made: Iterable[Bridged], topic: str, kind: str, to_gz: bool,
             return f"the bridge left it out: {said}"
         if other is None:
             return f"no bridge has the ROS topic {topic}"
+        wrong = next((each for each in remapped if (each["from"], each["to"]) == (topic, other.ros_topic)), None)
+        if wrong is not None:
+            return (
+                f"no bridge has the ROS topic {topic}: {wrong['file']}, line {wrong['line']}, has the two names of the "
+                f"remapping exchanged: the old one comes first, ('{other.ros_topic}', '{topic}')"
+            )
         if other.ros_topic == other.gz_topic:
             return (
                 f"no bridge has the ROS topic {topic}; {other.place} is called {other.ros_topic} in ROS, as in Gazebo: "

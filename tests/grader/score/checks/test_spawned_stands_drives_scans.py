@@ -142,6 +142,13 @@ def test_why_a_robot_does_not_move(record, found):
         (record(still, arrays=turning, facts={"sim_seconds": 6.0}), "did not roll along the ground"),
         (record(still, facts={"sim_seconds": 6.0}), "no states of its joints"),
         (record(still, facts=said), "a.sdf:3: DiffDrive's <left_joint> is wrong"),
+        (
+            record(
+                still,
+                facts={"launch": {"model_warnings": ["DiffDrive's <left_joint> names joint 'l', which m has not"]}},
+            ),
+            "; a joint of type fixed is merged",
+        ),
         (record(truth() | told("linear_x", 0.4, 0.0), facts=said), "no bridge carried the commands on /cmd_vel"),
     ):
         assert words in found("drives", recording, **drive("linear_x")).explanation
@@ -188,3 +195,19 @@ def test_good_scans_come(record, found, scans, frame, words):
 def test_why_no_scan_comes(record, found, bridges, words):
     recording = record({}, facts={"sim_seconds": 6.0, "bridges": bridges})
     assert words in found("scans", recording, topic="scan", frame="lidar_link").explanation
+
+
+def test_an_argument_of_another_name_is_named(record, found):
+    trial = json.dumps({"poses": {}, "parameters": {"x": "1.5", "yaw": "0"}})
+    places = [{"file": "a.launch.py", "line": 3, "name": name, "default": "0"} for name in ("x_pose", "y", "yaw")]
+    recording = record(truth(), facts={"launch": {}, "declared": places}, trial_parameters=trial)
+    said = found("spawned", recording, robot="scout", x="x", y="y", yaw="yaw").explanation
+    assert said.endswith("declares no argument called x; it declares x_pose, y, yaw"), said
+
+
+def test_another_program_that_died_is_named_where_nothing_creates_the_robot(record, found):
+    lines = ["[spawn-3] there is no option '-topic'", "[ERROR] [spawn-3]: process has died [pid 4, exit code 2]."]
+    finding = found(
+        "spawned", launched(record, {}, lines=[(0.1, line) for line in lines]), robot="scout", x="x", y="y", yaw="yaw"
+    )
+    assert "does that; spawn ended with exit code 2; it said: there is no option '-topic'" in finding.measured

@@ -95,6 +95,11 @@ def smallest_so_far(scan, kept):
     return kept["best"]
 
 
+def smallest_before(scan, kept):
+    kept.setdefault("all", []).append(min(valid(scan)))
+    return min(kept["all"][:-1], default=100.0)
+
+
 def running_average(scan, kept):
     kept.setdefault("all", []).append(min(valid(scan)))
     return sum(kept["all"]) / len(kept["all"])
@@ -175,6 +180,7 @@ MINIMA = {
     "those of two scans before": before(2),
     "three to ten scans before": before(5),
     "the smallest of all scans so far": smallest_so_far,
+    "the smallest of all scans before this one": smallest_before,
     "the average of all scans so far": running_average,
     "a low-pass filter": low_pass,
     "a median over the last 5 scans": median_of_five,

@@ -1,5 +1,6 @@
 """Wrong drives, one misconception each, by a timer whose clock comes seldom; the first sentence names the fault."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -47,6 +48,9 @@ WRONG = {
     ),
     "it drives the robot backwards; 0 stops it": drive(lambda now, calls: GO if now < 5.2 else (-0.5, 0.0)),
     "the sign of angular.z changes from command": drive(lambda now, calls: (0.5, 0.1 * (-1) ** calls)),
+    "angular.z changes from command to command, between 0.00 and": drive(
+        lambda now, calls: (0.5, 0.7 * math.sin(0.6 * (now - TICK))) if now < 5.2 else STOP
+    ),
     "no slight turn": drive(scaled(1, 6)),
     "the speed in km/h": drive(scaled(3.6, 1)),
     "the speed in cm/s": drive(scaled(100, 1)),
@@ -139,3 +143,24 @@ def test_a_right_drive_has_no_explanation(period, tick):
 def test_two_that_fit_are_both_named():
     both = explain(drive(lambda now, calls: (-0.5, -0.1) if now < 5.2 else STOP))
     assert "drives backwards" in both and "turns to the right" in both
+
+
+def suspected(about, words, program, period=0.1):
+    """Return the explanation of a drive whose file holds one suspect."""
+    return explain(dataclasses.replace(drive(program, period), suspects={about: words}))
+
+
+def test_a_suspect_is_named_once_its_symptom_is_seen():
+    assert suspected("endless", "line 7: x", lambda now, calls: GO).endswith("not one stops it: line 7: x")
+    holds = suspected("decides", "line 7, `if a < 5:`", lambda now, calls: GO)
+    assert "not one stops it: line 7, `if a < 5:` decides that, and it never changes; what your node compares" in holds
+    assert "line 7" not in suspected("endless", "line 7: x", right)
+    again = suspected("again", "line 9: y", lambda now, calls: STOP if now == 5.25 else GO)
+    assert again.endswith("at 5.50 s the robot is driven again: line 9: y")
+    place = suspected("by_place", "line 3: z", lambda now, calls: GO if now < 1.75 else STOP)
+    assert place == "the robot was driven for 1.50 s, where 5 s are asked for: line 3: z"
+
+
+def test_commands_that_come_in_bundles_are_no_loop():
+    bundles = drive(lambda now, calls: [GO if now < 2.0 else STOP] * 12, period=0.25)
+    assert "at the same moment" not in explain(bundles)

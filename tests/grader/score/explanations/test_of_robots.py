@@ -211,6 +211,26 @@ def test_why_commands_are_not_carried(made, said, words):
     assert words in topics.why_not_carried(made, "/cmd_vel", TWIST, to_gz=True, said=said)
 
 
+def test_a_remapping_the_wrong_way_round_is_named_with_its_line():
+    made = [bridged("/model/m/cmd_vel", TWIST, "/model/m/cmd_vel", "ROS_TO_GZ")]
+    remapped = [{"file": "a.launch.py", "line": 7, "from": "/cmd_vel", "to": "/model/m/cmd_vel"}]
+    said = topics.why_not_carried(made, "/cmd_vel", TWIST, to_gz=True, remapped=remapped)
+    assert "a.launch.py, line 7, has the two names of the remapping exchanged" in said
+    remapped[0] |= {"from": "/model/m/cmd_vel", "to": "/drive"}
+    said = topics.why_not_carried(made, "/cmd_vel", TWIST, to_gz=True, remapped=remapped)
+    assert "exchanged: the old" not in said
+
+
+def test_a_robot_with_both_wheels_on_one_side_falls_for_that(built):
+    assert "both wheels are on the same side" in standing.falls_over(built(("0 -0.15 0.06", "0 0.15 0.06")))
+
+
+def test_wheels_that_slip_may_hang_by_less(built):
+    low = built(('<origin xyz="-0.16 0 0.03"/>', '<origin xyz="-0.16 0 0.028"/>'))
+    assert driving.hangs(low) == ""
+    assert "caster reaches 0.002 m lower than the wheels" in driving.hangs(low, 0.001)
+
+
 NAMES = {"x": "x", "y": "y", "yaw": "yaw"}
 WANTED = {"x": -1.5, "y": 0.5, "yaw": 0.4}
 

@@ -1,0 +1,45 @@
+"""Names of states that are set in one spelling and asked for in another."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Place, assigned
+from gz_course.sim.did_you_mean import nearest_name
+
+NEAR = 0.75  # how alike two names of one state are
+FEWEST = 3  # letters of a name
+
+
+def other_spelling(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.state = 'Stop'` where only `self.state == 'stop'` is asked for."""
+    given: dict[str, dict[str, int]] = {}
+    unknown: set[str] = set()
+    for target, value in assigned(tree):
+        name = ast.unparse(target)
+        if isinstance(value, ast.Constant) and isinstance(value.value, str):
+            given.setdefault(name, {}).setdefault(value.value, target.lineno)
+        else:
+            unknown.add(name)
+    asked: dict[str, dict[str, int]] = {}
+    for node in ast.walk(tree):
+        match node:
+            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[ast.Constant(value=str(text))]):
+                asked.setdefault(ast.unparse(left), {}).setdefault(text, node.lineno)
+    for name in given.keys() & asked.keys() - unknown:
+        for text, line in asked[name].items():
+            unasked = [each for each in given[name] if each not in asked[name] and len(each) >= FEWEST]
+            if text not in given[name] and (near := _alike(text, unasked)):
+                yield (
+                    line,
+                    f"{name} is never {text!r}: line {given[name][near]} sets it to {near!r}, which is spelt otherwise",
+                )
+
+
+def _alike(text: str, names: list[str]) -> str:
+    same = next((each for each in names if each.casefold() == text.casefold()), "")
+    return same or nearest_name(text, names, NEAR) or ""
+
+
+LOOKS = (other_spelling,)
