@@ -168,6 +168,32 @@ def simulator_fault(said: str, recording: Recording) -> str:
     return ""
 
 
+def several_simulators(recording: Recording) -> str:
+    """Return which action starts a simulator that no condition keeps back; empty if that is unknown."""
+    made = recording.facts().get("simulators_made", [])
+    free = [each for each in made if not each["condition"]]
+    bound = [each for each in made if each["condition"]]
+    if len(made) < 2:
+        return ""
+    if free and bound:
+        return (
+            f"{free[0]['file']}, line {free[0]['line']}: this simulator has no condition, so it starts in any case, "
+            f"beside that of line {bound[0]['line']}, which has condition={bound[0]['condition']}: it needs the "
+            "opposite condition"
+        )
+    if free:
+        return (
+            f"{free[0]['file']}, line {free[1]['line']}: a second simulator is started here, beside that of line "
+            f"{free[0]['line']}, and no condition keeps either back: IfCondition and UnlessCondition let one start"
+        )
+    if len({each["condition"] for each in bound}) == 1:
+        return (
+            f"{bound[0]['file']}, line {bound[1]['line']}: this simulator has the same condition as that of line "
+            f"{bound[0]['line']}, {bound[0]['condition']}, so both start: it needs the opposite one"
+        )
+    return ""
+
+
 def declared(recording: Recording, name: str, default: str) -> str:
     """Return that the launch file declares no argument of this name, or one with another default; else nothing."""
     places = recording.facts().get("declared", [])

@@ -197,7 +197,7 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
     found = lines[line] if line < len(lines) else ""
     if "\\t" in problem or "\t" in found[: len(found) - len(found.lstrip())]:
         return "; YAML is indented with spaces, never with tabs"
-    if re.match(r"\s*(- )?\w+:[^\s/]", found):
+    if re.match(r"\s*(- )?\w+:(?!//)\S", found):
         return "; a space is missing after the colon"
     before = next((n for n in range(line - 1, -1, -1) if lines[n].split("#")[0].strip()), None)
     if problem == "mapping values are not allowed here" and before is not None:

@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.counters import counters
+from gz_course.grader.lint.delays import delays
+from gz_course.grader.lint.early_publishing import early_publishing
 from gz_course.grader.lint.origins import conditions, origins
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.message_fields import message_fields
@@ -74,6 +77,9 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
         "conditions": conditions(content),
+        "counters": counters(content),
+        "delays": delays(content),
+        "early_publishing": early_publishing(content),
         "origins": origins(content),
         "lookups": lookups(content),
         "shared_headers": shared_headers(content),

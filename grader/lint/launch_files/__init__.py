@@ -12,6 +12,7 @@ from gz_course.grader.lint.launch_files import actions, commands, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
+from gz_course.grader.lint.launch_files.simulators import simulators
 from gz_course.grader.lint.slips.late_binding import late_bound
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -23,7 +24,8 @@ def launch_places(content: bytes) -> dict[str, Places]:
 
     `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
     names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
-    and `default` (a text, or empty). `remappings` are those of its nodes, as `remappings.py` says.
+    and `default` (a text, or empty). `remappings` are those of its nodes, as `remappings.py` says;
+    `simulators_made` are the actions that start a simulator, as `simulators.py` says.
     """
     found: dict[str, Places] = {}
 
@@ -42,6 +44,7 @@ def launch_places(content: bytes) -> dict[str, Places]:
             for call in file.calls("DeclareLaunchArgument")
         ]
         found["remappings"] = list(remappings(file))[: 2 * MOST]
+        found["simulators_made"] = list(simulators(file))[: 2 * MOST]
         return []
 
     places_in(content, look)

@@ -43,12 +43,13 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
     """Find several words of a command line in one item of the list."""
     for words in _commands(file):
         for word in words:
-            parts = text(word).split()
+            said = text(file.value(word))
+            parts = said.split()
             if len(parts) > 1 and OPTION.match(parts[0]):
                 apart = ", ".join(repr(part) for part in parts)
                 yield (
                     word.lineno,
-                    f"{text(word).strip()!r} is one word here, with spaces in it: the program gets it as a single "
+                    f"{said.strip()!r} is one word here, with spaces in it: the program gets it as a single "
                     f"argument. Each word is an item of its own: {apart}",
                 )
             elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in ast.walk(word)):
@@ -57,6 +58,21 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     "file name and --ros-args are one word here, with spaces in it: each word of a command is an item "
                     "of its own in the list",
                 )
+            elif _joined(file.value(word)):
+                yield (
+                    word.lineno,
+                    "join() makes a single word of several, with spaces in it: each word of a command is an item of "
+                    "its own in the list",
+                )
+
+
+def _joined(word: ast.expr | None) -> bool:
+    """Whether an expression joins words of a command to one text, with spaces between them."""
+    method = word.func if isinstance(word, ast.Call) else None
+    if not isinstance(method, ast.Attribute) or method.attr != "join" or text(method.value) != " ":
+        return False
+    words = [each for part in word.args for each in ast.walk(part)] if isinstance(word, ast.Call) else []
+    return any(OPTION.match(text(each)) for each in words)
 
 
 def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:

@@ -117,6 +117,7 @@ def test_a_right_file_has_none():
         ('"-r", world], condition=UnlessCondition', '"-r", world], condition=IfCondition', "UnlessCondition is the"),
         ('"--ros-args", "-p", "use', '"--ros-args -p use', "is one word here"),
         ('"-s", "-r"', '"-s -r"', "'-s', '-r'"),
+        ('"--ros-args", "-p", ', '" ".join(["--ros-args", "-p"]), ', "join() makes a single word of several"),
         ('str(HERE / "watch.py"), "--ros-args", ', 'f"{HERE}/watch.py --ros-args", ', "file name and --ros-args"),
         ('"--ros-args", "-p", ', '"-p", ', "--ros-args is missing before"),
         ('"--ros-args", "-p", ', '*command, "-p", ', ""),
@@ -192,3 +193,30 @@ def test_remappings_are_listed_with_the_namespace_of_their_node():
         {"line": 2, "namespace": "arm", "from": "wall", "to": "/wall"},
         {"line": 2, "namespace": "arm", "from": "out", "to": "x"},
     ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "conditions"),
+    [
+        ("world", "world", ["IfCondition(paused)", "UnlessCondition(paused)"]),
+        (", condition=UnlessCondition(paused)", "", ["IfCondition(paused)", ""]),
+        ("    runs =", "    if world:\n        runs =", ["IfCondition(paused)"]),
+        ("stands, runs,", "GroupAction([stands]), runs,", ["IfCondition(paused)", "UnlessCondition(paused)"]),
+    ],
+)
+def test_each_simulator_has_its_condition(old, new, conditions):
+    found = launch_places(RIGHT.replace(old, new).encode())["simulators_made"]
+    assert [each["condition"] for each in found] == conditions
+
+
+def test_the_condition_of_a_group_is_that_of_its_simulator():
+    inside = RIGHT.replace("stands = ExecuteProcess(", "stands = GroupAction(condition=c, actions=[ExecuteProcess(")
+    inside = inside.replace(", condition=IfCondition(paused))", ")])")
+    assert launch_places(inside.encode())["simulators_made"][0]["condition"] == "c"
+
+
+def test_a_name_stands_for_its_words():
+    named = RIGHT.replace('"--ros-args", "-p", "use_sim_time:=true"', "TIME").replace(
+        "HERE =", 'TIME = "--ros-args -p use_sim_time:=true"\nHERE ='
+    )
+    assert "'--ros-args -p use_sim_time:=true' is one word here" in slips(named)[0]

@@ -14,6 +14,7 @@ from gz_course.grader.score.launched import (
     launch_slips,
     looked_elsewhere,
     not_started,
+    several_simulators,
     simulator_fault,
 )
 
@@ -79,6 +80,25 @@ def test_a_good_launch_passes(find, kind):
 def test_no_simulator_or_too_many(find, changes, measured):
     finding = find("simulator", **changes)
     assert (finding.passed, finding.measured) == (False, measured)
+
+
+@pytest.mark.parametrize(
+    ("conditions", "words"),
+    [
+        (
+            ["If(p)", ""],
+            "b.py, line 2: this simulator has no condition, so it starts in any case, beside that of line 1",
+        ),
+        (["", ""], "b.py, line 2: a second simulator is started here"),
+        (["If(p)", "If(p)"], "b.py, line 2: this simulator has the same condition"),
+        (["If(p)", "Unless(p)"], ""),
+        (["If(p)"], ""),
+    ],
+)
+def test_the_simulator_that_nothing_keeps_back_is_named(record, conditions, words):
+    made = [{"file": "b.py", "line": i, "condition": each} for i, each in enumerate(conditions, 1)]
+    said = several_simulators(record(facts={"simulators_made": made}))
+    assert said.startswith(words) and bool(said) == bool(words)
 
 
 @pytest.mark.parametrize(("arguments", "passed"), [({}, True), ({"world": "a.sdf"}, True), ({"world": "b.sdf"}, False)])
