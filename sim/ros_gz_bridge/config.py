@@ -229,15 +229,22 @@ def _entry(file_name: str, node: yaml.Node, findings: list[Finding], lazy: bool)
         return None
     values: dict[str, Value] = {}
     first_line: dict[str, int] = {}
-    for key_node, value_node in node.value:
+    no_dash = False
+    keys = [key_node.value for key_node, _ in node.value if isinstance(key_node, yaml.ScalarNode)]
+    for number, (key_node, value_node) in enumerate(node.value):
         key = key_node.value if isinstance(key_node, yaml.ScalarNode) else None
         here = _place(file_name, key_node)
         if key is None or key not in (*KEYS, *SERVICE_KEYS):
             findings.append(Finding(here, unknown_key(key), tolerated=True))
         elif key in first_line:
-            sentence = (
-                f"'{key}' is given twice (first in line {first_line[key]}, which counts); keep one, or "
-                "write '- ' before it if another bridge begins here"
+            several = sum(other in first_line for other in keys[number:]) > 1
+            if no_dash:
+                continue
+            no_dash = several
+            sentence = f"'{key}' is given twice (first in line {first_line[key]}, which counts); " + (
+                f"so are those below it: a dash is missing here, '- {key}:' begins the next bridge"
+                if several
+                else "keep one, or write '- ' before it if another bridge begins here"
             )
             findings.append(Finding(here, sentence, tolerated=True))
         else:

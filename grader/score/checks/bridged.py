@@ -14,6 +14,7 @@ No other bridge may publish the messages of another topic to the same destinatio
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from gz_course.grader.exercise.toml_table import Table
@@ -109,6 +110,10 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
         carried = (gz[bridge.gz_topic].get("types") or [""])[0]
         what, other = (CONTENTS.get(name.rpartition(".")[2], "") for name in (carried, wanted["gz_type"]))
         said = f": it carries {what}, and {bridge.ros_topic} is to carry {other}" if what and other != what else ""
+        model, mine = _model(bridge.gz_topic), _model(wanted["gz_topic"])
+        said = said or (
+            f": it is that of the model {model}, not of {mine}" if model and mine not in ("", model) else ""
+        )
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}{said}"
     if bridge.gz_topic.endswith((",", ";")):
         end = bridge.gz_topic[-1]
@@ -117,6 +122,12 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     typo = "it is nearly right, look at its spelling: " if near else ""
     name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""
     return f"nobody in Gazebo {does} {bridge.gz_topic}{name}; {typo}gz topic -l lists the topics there are"
+
+
+def _model(topic: str) -> str:
+    """Return the model whose name is in the name of a Gazebo topic; empty if none is."""
+    match = re.match(r"/model/([^/]+)/", topic)
+    return match[1] if match else ""
 
 
 def _why(wanted: dict[str, str]) -> str:

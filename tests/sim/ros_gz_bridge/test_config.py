@@ -231,6 +231,11 @@ def test_no_text_does_worse_than_a_config_error(text):
             "b.yaml:5:",
             "'direction' is given twice (first in line 4, which counts)",
         ),
+        (
+            bridge() + bridge().replace("- ", "  "),
+            "b.yaml:5:",
+            "a dash is missing here, '- ",
+        ),
         (bridge() + bridge(), "b.yaml:5:", "bridges /scan again (first: b.yaml:1)"),
         ("[" * 5000, "b.yaml", "nested too deeply"),
         ("[" + "a, " * 1001 + "]", "b.yaml", "1001 bridges, more than the 1000"),
