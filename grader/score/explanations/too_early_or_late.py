@@ -74,6 +74,13 @@ def counted_too_far(recording: Recording, times: np.ndarray) -> str:
     return ""
 
 
+def timed_twice(recording: Recording) -> str:
+    """Return which timer there is more than once; empty if there is none."""
+    for place in recording.facts().get("repeated_timers", []):
+        return f"{place['file']}, line {place['line']}: {place['said']}"
+    return ""
+
+
 def sent_too_early(recording: Recording) -> str:
     """Return where a message is sent before others have found the publisher; empty if that is unknown."""
     for place in recording.facts().get("early_publishing", []):

@@ -8,6 +8,7 @@ from gz_course.grader.score.explanations.too_early_or_late import (
     counted_late,
     counted_too_far,
     sent_too_early,
+    timed_twice,
 )
 
 COUNTER = {"file": "n.py", "line": 4, "code": "self.n == 1", "counter": "self.n", "limit": 1.0, "added": 6}
@@ -49,6 +50,12 @@ SLEEP = TIMER | {"line": 7, "kind": "sleep"}
 def test_what_adds_up_to_the_time_of_the_message(record, delays, first, words):
     said = added_up(record(facts={"delays": delays}), np.array([first]), WINDOW)
     assert words in said and bool(said) == bool(words)
+
+
+def test_a_timer_that_is_made_twice(record):
+    place = {"file": "n.py", "line": 5, "said": "a second timer"}
+    assert timed_twice(record(facts={"repeated_timers": [place]})) == "n.py, line 5: a second timer"
+    assert timed_twice(record()) == ""
 
 
 def test_a_message_before_anybody_listens(record):
