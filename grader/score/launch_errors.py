@@ -78,6 +78,11 @@ MEANINGS = (
         "Command joins its parts as they are, and the space behind xacro is missing: ['xacro ', path]",
     ),
     (
+        re.compile(r"invalid condition expression: '(\w+)'"),
+        "the condition gets the text {0}, which is neither true nor false; the value of an argument is "
+        "LaunchConfiguration('NAME'), not its name in quotes",
+    ),
+    (
         re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
         "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
         "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is handed over",

@@ -156,6 +156,16 @@ def simulator_fault(said: str, recording: Recording) -> str:
     names = {place["name"] for place in recording.facts().get("declared", [])}
     if " object at 0x" in given:
         return "the description of a Python object stands in the command, not the value of a launch configuration"
+    if match := re.search(r"\$\((?:var|arg) (\w+)\)", given):
+        return (
+            f"'{match[0]}' is a text in a launch file in Python; XML and YAML write it so, and Python writes "
+            f"LaunchConfiguration('{match[1]}')"
+        )
+    if match := re.search(r"\{(\w+)[^}]*\}", given):
+        return (
+            f"'{match[0]}' is a text, with its braces: the LaunchConfiguration itself, not in quotes, is the item of "
+            "the list, and gets its value when the launch runs"
+        )
     if given in names:
         return f"'{given}' is a text; the value of the argument is LaunchConfiguration('{given}')"
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))

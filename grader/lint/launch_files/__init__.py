@@ -12,6 +12,7 @@ from gz_course.grader.lint.launch_files import actions, commands, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
+from gz_course.grader.lint.launch_files.sim_time import programs
 from gz_course.grader.lint.launch_files.simulators import simulators
 from gz_course.grader.lint.slips.late_binding import late_bound
 from gz_course.grader.lint.syntax import Places, places_in
@@ -24,7 +25,8 @@ def launch_places(content: bytes) -> dict[str, Places]:
 
     `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
     names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
-    and `default` (a text, or empty). `remappings` are those of its nodes, as `remappings.py` says;
+    and `default` (a text, or empty), and the configurations with a default that nothing declares. `remappings` are those of its nodes, as `remappings.py` says;
+    `programs` are the Python programs that it starts, as `sim_time.py` says;
     `simulators_made` are the actions that start a simulator, as `simulators.py` says.
     """
     found: dict[str, Places] = {}
@@ -43,7 +45,14 @@ def launch_places(content: bytes) -> dict[str, Places]:
             }
             for call in file.calls("DeclareLaunchArgument")
         ]
+        names = {place["name"] for place in found["declared"]}
+        found["declared"] += [
+            {"line": call.lineno, "name": name, "default": text(file.value(argument(call, "default")))}
+            for call in file.calls("LaunchConfiguration")
+            if argument(call, "default") and (name := text(argument(call, "variable_name", 0))) not in names
+        ]
         found["remappings"] = list(remappings(file))[: 2 * MOST]
+        found["programs"] = list(programs(file))[: 2 * MOST]
         found["simulators_made"] = list(simulators(file))[: 2 * MOST]
         return []
 

@@ -144,6 +144,8 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
             continue
         given = file.value(argument(call, "parameters"))
         arguments = argument(call, "arguments")
+        if arguments is not None and "config_file" not in ast.unparse(call):
+            yield from _file_as_topic(file, arguments)
         if not isinstance(given, ast.List):
             continue
         names = [text(key) for each in given.elts if isinstance(each, ast.Dict) for key in each.keys]
@@ -162,6 +164,32 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
                 f"the bridge gets a parameter called {other}, which it does not know: its file is the value of "
                 "config_file",
             )
+
+
+def _file_as_topic(file: LaunchFile, arguments: ast.expr) -> Iterator[Place]:
+    """Find the bridge's file among its arguments, which are topics."""
+    given = file.value(arguments)
+    for word in given.elts if isinstance(given, ast.List | ast.Tuple) else []:
+        if any(text(each).endswith((".yaml", ".yml")) for part in file.parts(word) for each in ast.walk(part)):
+            yield (
+                word.lineno,
+                "the arguments of parameter_bridge are topics; its file is the value of its parameter config_file: "
+                "parameters=[{'config_file': PATH}]",
+            )
+
+
+def parameters_in_the_environment(file: LaunchFile) -> Iterator[Place]:
+    """Find use_sim_time as an environment variable, or as an argument that a program's own code would have to read."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "SetEnvironmentVariable"):
+        own = last_name(call.func) == "SetEnvironmentVariable"
+        given = [argument(call, "env"), argument(call, "additional_env"), argument(call, "name", 0) if own else None]
+        for part in given:
+            if part is not None and any(text(each).lower() == SIM_TIME for each in ast.walk(file.value(part) or part)):
+                yield (
+                    part.lineno,
+                    f"{SIM_TIME} is a parameter of a node, and no environment variable: the words of its command are "
+                    f"--ros-args -p {SIM_TIME}:=true",
+                )
 
 
 def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
@@ -257,5 +285,5 @@ def axes_of_create(file: LaunchFile) -> Iterator[Place]:
 
 LOOKS = (
     axes_of_create, glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
-    sim_time_for_others, arguments_for_nobody, detached, parameters_for_what_follows,
+    sim_time_for_others, arguments_for_nobody, detached, parameters_in_the_environment, parameters_for_what_follows,
 )  # fmt: skip

@@ -136,6 +136,13 @@ def test_a_right_file_has_none():
             "],\n    )\n    stands = DeclareLaunchArgument('use_sim_time')",
             "is declared, but nothing reads it",
         ),
+        (
+            ', "--ros-args", "-p", "use_sim_time:=true"],\n    )',
+            "],\n        additional_env={'use_sim_time': 'true'},\n    )",
+            "and no environment variable",
+        ),
+        ('parameters=[{"config_file": str(HERE / "bridge.yaml")}]', "arguments=[HERE / 'bridge.yaml']", "are topics"),
+        ('parameters=[{"config_file": str(HERE / "bridge.yaml")}]', "arguments=['/clock@a/msg/B[gz.msgs.C']", ""),
     ],
 )  # fmt: skip
 def test_a_mistake_is_named(old, new, words):
@@ -220,3 +227,31 @@ def test_a_name_stands_for_its_words():
         "HERE =", 'TIME = "--ros-args -p use_sim_time:=true"\nHERE ='
     )
     assert "'--ros-args -p use_sim_time:=true' is one word here" in slips(named)[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sim_time", "elsewhere"),
+    [
+        ("world", "world", True, 0),
+        (', "--ros-args", "-p", "use_sim_time:=true"', "", False, 0),
+        (', "--ros-args", "-p", "use_sim_time:=true"', ", *WORDS", True, 0),
+    ],
+)
+def test_each_program_says_whether_it_mentions_simulated_time(old, new, sim_time, elsewhere):
+    (place,) = launch_places(RIGHT.replace(old, new).encode())["programs"]
+    assert (place["program"], place["sim_time"], place["elsewhere"]) == ("watch.py", sim_time, elsewhere)
+
+
+def test_simulated_time_for_another_program_is_told():
+    wrong = RIGHT.replace(', "--ros-args", "-p", "use_sim_time:=true"', "").replace(
+        '"config_file": ', '"use_sim_time": True, "config_file": '
+    )
+    (place,) = launch_places(wrong.encode())["programs"]
+    assert (place["sim_time"], place["executable"]) == (False, "parameter_bridge") and place["elsewhere"]
+
+
+def test_the_default_of_a_configuration_that_nothing_declares_counts():
+    text = RIGHT.replace('LaunchConfiguration("paused")\n', 'LaunchConfiguration("paused", default="true")\n')
+    assert [each["default"] for each in launch_places(text.encode())["declared"]] == ["empty.sdf", "false"]
+    undeclared = text.replace('        DeclareLaunchArgument("paused", default_value="false"),\n', "")
+    assert [each["default"] for each in launch_places(undeclared.encode())["declared"]] == ["empty.sdf", "true"]

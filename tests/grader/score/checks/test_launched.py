@@ -311,3 +311,32 @@ def test_the_fault_of_a_launch_comes_with_file_and_line(record):
 def test_a_launch_without_fault_has_none(record):
     assert launch_fault(record(facts={"launch": GOOD})) == diagnose(record(facts={"launch": GOOD}), LOOKS) == ""
     assert launch_fault(record()) == ""
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, "b.py, line 9: the command of stopwatch.py does not hold use_sim_time; line 5 gives it to bridge"),
+        ({"elsewhere": 0, "executable": ""}, "b.py, line 9: the command of stopwatch.py does not hold use_sim_time"),
+        ({"sim_time": True}, ""),
+        ({"program": "other.py"}, ""),
+    ],
+)
+def test_the_command_without_simulated_time_is_named(record, changes, words):
+    place = {"file": "b.py", "line": 9, "program": "stopwatch.py", "sim_time": False}
+    place |= {"elsewhere": 5, "executable": "bridge"}
+    facts = {"launch": GOOD, "endpoints": CLOCKED[1:], "programs": [place | changes]}
+    kind = check_kinds()["launched_node"]
+    assert kind(record(facts=facts), Table(PARAMETERS["node"], "check 'it'", "parameter")).explanation == words
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ("{world}", "'{world}' is a text, with its braces"),
+        ("$(var world)", "Python writes LaunchConfiguration('world')"),
+        ("$(arg world)", "XML and YAML write it so"),
+    ],
+)
+def test_a_world_that_is_a_pattern(record, given, words):
+    assert words in simulator_fault(f"world file '{given}' was not found as a path", record())
