@@ -24,10 +24,10 @@ def launch_places(content: bytes) -> dict[str, Places]:
     """Return the places in a launch file, none if it is not Python.
 
     `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
-    names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
-    and `default` (a text, or empty), and the configurations with a default that nothing declares. `remappings` are those of its nodes, as `remappings.py` says;
-    `programs` are the Python programs that it starts, as `sim_time.py` says;
-    `simulators_made` are the actions that start a simulator, as `simulators.py` says.
+    names as a text: `line` and `world`. `declared` are the arguments that the file declares, and the configurations
+    with a default that nothing declares: `line`, `name` and `default` (a text, or empty). `remappings` are those of its
+    nodes, as `remappings.py` says. `programs` are the Python programs that it starts, as `sim_time.py` says, and
+    `simulators_made` the actions that start a simulator, as `simulators.py` says.
     """
     found: dict[str, Places] = {}
 
