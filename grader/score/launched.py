@@ -204,6 +204,20 @@ def several_simulators(recording: Recording) -> str:
     return ""
 
 
+def kept_back(recording: Recording, kind: str) -> str:
+    """Return the condition that keeps all actions of a kind (`simulators_made`, `bridges_made`) back, or nothing."""
+    made = recording.facts().get(kind, [])
+    if not made or not all(each["condition"] for each in made):
+        return ""
+    what, other = made[0], "; nothing else starts one"
+    if len(made) > 1:
+        other = f", and that of line {made[1]['line']} only with condition={made[1]['condition']}"
+    return (
+        f"{what['file']}, line {what['line']}: this starts only with condition={what['condition']}{other}, so that "
+        "here nothing did"
+    )
+
+
 def declared(recording: Recording, name: str, default: str) -> str:
     """Return that the launch file declares no argument of this name, or one with another default; else nothing."""
     places = recording.facts().get("declared", [])

@@ -10,10 +10,10 @@ from typing import Any
 
 from gz_course.grader.lint.launch_files import actions, commands, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
+from gz_course.grader.lint.launch_files.conditions import bridges, simulators
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
-from gz_course.grader.lint.launch_files.simulators import simulators
 from gz_course.grader.lint.slips.late_binding import late_bound
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -27,7 +27,7 @@ def launch_places(content: bytes) -> dict[str, Places]:
     names as a text: `line` and `world`. `declared` are the arguments that the file declares, and the configurations
     with a default that nothing declares: `line`, `name` and `default` (a text, or empty). `remappings` are those of its
     nodes, as `remappings.py` says. `programs` are the Python programs that it starts, as `sim_time.py` says, and
-    `simulators_made` the actions that start a simulator, as `simulators.py` says.
+    `simulators_made` and `bridges_made` the actions that start a simulator or a bridge, as `conditions.py` says.
     """
     found: dict[str, Places] = {}
 
@@ -53,6 +53,7 @@ def launch_places(content: bytes) -> dict[str, Places]:
         ]
         found["remappings"] = list(remappings(file))[: 2 * MOST]
         found["programs"] = list(programs(file))[: 2 * MOST]
+        found["bridges_made"] = list(bridges(file))[: 2 * MOST]
         found["simulators_made"] = list(simulators(file))[: 2 * MOST]
         return []
 

@@ -21,7 +21,7 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Bridged, bridges
-from gz_course.grader.score.launched import by_python, deaths, logged_error, looked_elsewhere
+from gz_course.grader.score.launched import by_python, deaths, kept_back, logged_error, looked_elsewhere
 from gz_course.sim.did_you_mean import nearest_name
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
@@ -61,7 +61,8 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
             return Finding(False, expected, measured, explanation=why)
         said = logged_error(recording, "parameter_bridge")
         measured = _not_there(wanted, made) + (f"; parameter_bridge said: {said}" if said else "")
-        return Finding(False, expected, measured, explanation=looked_elsewhere(said))
+        why = looked_elsewhere(said) or ("" if made or said else kept_back(recording, "bridges_made"))
+        return Finding(False, expected, measured, explanation=why)
     if measured := by_python(recording, "parameter_bridge"):
         return Finding(False, expected, measured)
     faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]

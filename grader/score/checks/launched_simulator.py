@@ -11,6 +11,7 @@ from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import (
     by_python,
     complaint,
+    kept_back,
     launch_facts,
     ran,
     several_simulators,
@@ -34,7 +35,8 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
             why = "a Command in it (such as xacro), or its own Python, takes far too long or never ends"
             return Finding(False, expected, measured, explanation=why)
         measured = f"gz sim said: {said}" if said else "no simulator was started"
-        return Finding(False, expected, measured, explanation=simulator_fault(said, recording))
+        why = simulator_fault(said, recording) if said else kept_back(recording, "simulators_made")
+        return Finding(False, expected, measured, explanation=why)
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)
         measured = f"{len(running)} simulators were started ({worlds}); each publishes its own time"

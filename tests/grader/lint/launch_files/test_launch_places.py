@@ -255,3 +255,9 @@ def test_the_default_of_a_configuration_that_nothing_declares_counts():
     assert [each["default"] for each in launch_places(text.encode())["declared"]] == ["empty.sdf", "false"]
     undeclared = text.replace('        DeclareLaunchArgument("paused", default_value="false"),\n', "")
     assert [each["default"] for each in launch_places(undeclared.encode())["declared"]] == ["empty.sdf", "true"]
+
+
+def test_a_bridge_has_its_condition():
+    assert [each["condition"] for each in launch_places(RIGHT.encode())["bridges_made"]] == [""]
+    kept = RIGHT.replace('executable="parameter_bridge",', 'executable="parameter_bridge", condition=IfCondition(a),')
+    assert [each["condition"] for each in launch_places(kept.encode())["bridges_made"]] == ["IfCondition(a)"]

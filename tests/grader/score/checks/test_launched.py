@@ -10,6 +10,7 @@ from gz_course.grader.score.check import check_kinds
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
 from gz_course.grader.score.launched import (
     deaths,
+    kept_back,
     launch_fault,
     launch_slips,
     looked_elsewhere,
@@ -340,3 +341,18 @@ def test_the_command_without_simulated_time_is_named(record, changes, words):
 )
 def test_a_world_that_is_a_pattern(record, given, words):
     assert words in simulator_fault(f"world file '{given}' was not found as a path", record())
+
+
+@pytest.mark.parametrize(
+    ("conditions", "words"),
+    [
+        (["If(p)"], "b.py, line 1: this starts only with condition=If(p); nothing else starts one"),
+        (["If(p)", "If(q)"], "and that of line 2 only with condition=If(q)"),
+        (["If(p)", ""], ""),
+        ([], ""),
+    ],
+)
+def test_the_condition_that_keeps_everything_back_is_named(record, conditions, words):
+    made = [{"file": "b.py", "line": i, "condition": each} for i, each in enumerate(conditions, 1)]
+    said = kept_back(record(facts={"bridges_made": made}), "bridges_made")
+    assert words in said and bool(said) == bool(words)
