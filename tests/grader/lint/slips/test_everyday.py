@@ -136,3 +136,9 @@ def test_a_sleep_of_minutes_before_publish_is_named(seconds, named):
     text = f"import time\n\np = node.create_publisher(String, '/a', 10)\ntime.sleep({seconds})\np.publish(a)"
     found = [place["line"] for place in slips(text.encode()) if "takes seconds" in place["said"]]
     assert found == ([4] if named else [])
+
+
+def test_an_executor_that_nothing_spins_is_named():
+    text = "executor = SingleThreadedExecutor()\nexecutor.add_node(node)\n"
+    assert [place["line"] for place in slips(text.encode()) if "executor.spin() is missing" in place["said"]] == [2]
+    assert not slips(f"{text}executor.spin()\n".encode())
