@@ -27,6 +27,7 @@ DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-
 ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
 # A file that was given by a relative path and not found, as the bridge and Python say it (Python adds its folder).
 NO_FILE = re.compile(r"(?:^|: |open file ')((?:/(?!submission)\w+/)?[\w.-]+\.\w+)'?: .*No such file or directory")
+OTHER_FOLDER = re.compile(r"(?:^|: |open file ')(/(?:[\w.-]+/)*)([\w.-]+\.\w+)'?: .*No such file or directory")
 OF_A_FILE = re.compile(r"([\w.-]+\.py)/[\w./-]+'?: .*Not a directory")
 NOT_STARTED = re.compile(r"^\[ERROR\] \[[^\]]+-\d+\]: (.*(?:there is no program '|cannot be started).*)")
 GLUED = re.compile(r"argument (-\w): ignored explicit argument '([^']+)'")
@@ -239,7 +240,13 @@ def looked_elsewhere(said: str) -> str:
     if match := OF_A_FILE.search(said):
         return f"{match[1]} is the launch file itself, not a folder: its folder is Path(__file__).parent"
     if not (match := NO_FILE.search(said)):
-        return ""
+        match = OTHER_FOLDER.search(said)
+        return (
+            f"{match[2]} was looked for in the folder {match[1]}, where it does not lie; the folder of the launch "
+            "file is Path(__file__).parent"
+            if match
+            else ""
+        )
     name = match.group(1).rpartition("/")[2]
     return (
         f"{name} was looked for in the folder in which ros2 launch was called, not beside the launch file: give its "

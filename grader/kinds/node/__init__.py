@@ -15,7 +15,7 @@ from gz_course.grader.lint.counters import counters
 from gz_course.grader.lint.delays import delays
 from gz_course.grader.lint.early_publishing import early_publishing
 from gz_course.grader.lint.origins import conditions, origins
-from gz_course.grader.lint.repeated_timers import repeated_timers
+from gz_course.grader.lint.repetitions import repetitions
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.message_fields import message_fields
 from gz_course.grader.lint.slips.sequences import silent_log
@@ -82,7 +82,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "delays": delays(content),
         "early_publishing": early_publishing(content),
         "origins": origins(content),
-        "repeated_timers": repeated_timers(content),
+        "repetitions": repetitions(content),
         "lookups": lookups(content),
         "shared_headers": shared_headers(content),
         "silent_log": silent_log(content),

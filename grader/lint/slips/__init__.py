@@ -16,13 +16,13 @@ from gz_course.grader.lint.slips import (
     callbacks,
     everyday,
     exact_sums,
-    guards,
     late_binding,
     mixed_clocks,
     names,
     no_effect,
     not_what_they_seem,
     parameters,
+    publishers,
     scan_callbacks,
     searches,
     sequences,
@@ -43,7 +43,7 @@ ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
-    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, guards.LOOKS,
+    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, publishers.LOOKS,
 )  # fmt: skip
 
 

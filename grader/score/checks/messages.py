@@ -25,8 +25,8 @@ from gz_course.grader.score.explanations.too_early_or_late import (
     added_up,
     counted_late,
     counted_too_far,
+    sent_again,
     sent_too_early,
-    timed_twice,
 )
 from gz_course.grader.score.steps import told
 
@@ -73,7 +73,7 @@ def messages(recording: Recording, parameters: Table) -> Finding:
         asked = (window[0], window[1])
         why = counted_late(recording, times, asked) or added_up(recording, times, asked) or wrong_moment(times, asked)
     elif not passed and counts.sum() > most:
-        why = counted_too_far(recording, times) or timed_twice(recording) or too_many(times, recording.ended_s)
+        why = counted_too_far(recording, times) or sent_again(recording) or too_many(times, recording.ended_s)
     elif not passed and sent > most:
         why = sent_too_early(recording)
     return Finding(passed, expected, measured, round(at, 3), timing=window is not None, explanation=why)

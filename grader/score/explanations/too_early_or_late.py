@@ -74,9 +74,9 @@ def counted_too_far(recording: Recording, times: np.ndarray) -> str:
     return ""
 
 
-def timed_twice(recording: Recording) -> str:
-    """Return which timer there is more than once; empty if there is none."""
-    for place in recording.facts().get("repeated_timers", []):
+def sent_again(recording: Recording) -> str:
+    """Return which timer there is more than once, or which loop publishes; empty if there is none."""
+    for place in recording.facts().get("repetitions", []):
         return f"{place['file']}, line {place['line']}: {place['said']}"
     return ""
 

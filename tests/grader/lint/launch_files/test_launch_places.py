@@ -261,3 +261,17 @@ def test_a_bridge_has_its_condition():
     assert [each["condition"] for each in launch_places(RIGHT.encode())["bridges_made"]] == [""]
     kept = RIGHT.replace('executable="parameter_bridge",', 'executable="parameter_bridge", condition=IfCondition(a),')
     assert [each["condition"] for each in launch_places(kept.encode())["bridges_made"]] == ["IfCondition(a)"]
+
+
+@pytest.mark.parametrize(
+    ("expression", "named"),
+    [
+        ("[\"'-r' if '\", paused, \"' else ''\"]", True),
+        ('["not \'", paused, "\'"]', True),
+        ("[\"'-r' if '\", paused, \"' == 'true' else ''\"]", False),
+        ("[\"'\", world, \"'.removesuffix('.sdf')\"]", False),
+    ],
+)
+def test_a_text_in_an_expression_is_no_truth(expression, named):
+    found = slips(RIGHT.replace('"-r", world', f"PythonExpression({expression}), world"))
+    assert any("whether a text in quotes is true" in each for each in found) == named

@@ -206,6 +206,8 @@ def test_an_error_of_a_node_has_its_place_and_its_meaning(find, record):
             "bringup.launch.py is the launch file itself, not a folder",
         ),
         ("bridge.yaml: cannot read: No such file or directory", "bridge.yaml was looked for in the folder"),
+        ("/bridge.yaml: cannot read: No such file or directory", "bridge.yaml was looked for in the folder /, where"),
+        ("can't open file '/a/b/watch.py': [Errno 2] No such file or directory", "in the folder /a/b/, where it does"),
         ("no bridge", ""),
     ],
 )

@@ -7,8 +7,8 @@ from gz_course.grader.score.explanations.too_early_or_late import (
     added_up,
     counted_late,
     counted_too_far,
+    sent_again,
     sent_too_early,
-    timed_twice,
 )
 
 COUNTER = {"file": "n.py", "line": 4, "code": "self.n == 1", "counter": "self.n", "limit": 1.0, "added": 6}
@@ -54,8 +54,8 @@ def test_what_adds_up_to_the_time_of_the_message(record, delays, first, words):
 
 def test_a_timer_that_is_made_twice(record):
     place = {"file": "n.py", "line": 5, "said": "a second timer"}
-    assert timed_twice(record(facts={"repeated_timers": [place]})) == "n.py, line 5: a second timer"
-    assert timed_twice(record()) == ""
+    assert sent_again(record(facts={"repetitions": [place]})) == "n.py, line 5: a second timer"
+    assert sent_again(record()) == ""
 
 
 def test_a_message_before_anybody_listens(record):

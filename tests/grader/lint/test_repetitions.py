@@ -1,8 +1,8 @@
-"""A timer that is made twice: two calls, a method called twice, a callback that makes its own."""
+"""A timer that is made twice by a method that is called twice, and a loop that publishes."""
 
 import pytest
 
-from gz_course.grader.lint.repeated_timers import repeated_timers
+from gz_course.grader.lint.repetitions import repetitions
 
 RIGHT = """\
 class Greeter(Node):
@@ -22,13 +22,24 @@ class Greeter(Node):
 @pytest.mark.parametrize(
     ("init", "greet", "words"),
     [
-        ("self.again = self.create_timer(timer_period_sec=2.0, callback=self.greet)", "pass", "beside that of line"),
         ("self.start()", "pass", "lines 3 and 4 call it"),
-        ("pass", "self.timer = self.create_timer(1.0, self.greet)", "each call of greet makes another timer"),
         ("self.other = self.create_timer(1.0, self.wave)", "pass", ""),
         ("pass", "self.timer = self.create_timer(1.0, self.wave)", ""),
     ],
 )
 def test_a_timer_that_is_made_again(init, greet, words):
-    found = repeated_timers(RIGHT.format(init=init, greet=greet).encode())
+    found = repetitions(RIGHT.format(init=init, greet=greet).encode())
     assert any(words in each["said"] for each in found) if words else not found
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("while rclpy.ok():\n    time.sleep(1.0)\n    p.publish(a)", True),
+        ("for i in range(3):\n    p.publish(a)", True),
+        ("while True:\n    p.publish(a)\n    break", False),
+        ("while rclpy.ok():\n    rclpy.spin_once(node)", False),
+    ],
+)
+def test_a_loop_that_publishes(text, named):
+    assert bool(repetitions(text.encode())) == named
