@@ -107,7 +107,7 @@ def cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
 def slip(recording: Recording, facts: dict[str, Any]) -> str:
     """Name the mistake in the file for which the node died, ended, never spun or never spoke; then say that it did."""
     what = next(filter(None, (look(recording, facts) for look in (died, ended_early, never_spun, out_of_time))), "")
-    what = what or (silent(recording, facts) if _of(facts, "publisher") else "")
+    what = what or (silent if _of(facts, "publisher") else publishers)(recording, facts)
     return f"{slips(recording)} {what}" if what and facts.get("slips") else ""
 
 

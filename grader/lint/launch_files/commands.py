@@ -58,6 +58,14 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     "file name and --ros-args are one word here, with spaces in it: each word of a command is an item "
                     "of its own in the list",
                 )
+            elif isinstance(inner := file.value(word), ast.List) and any(
+                OPTION.match(text(each)) for each in inner.elts[1:]
+            ):
+                yield (
+                    word.lineno,
+                    "a list inside of the list is one word: launch joins its parts without spaces. Each word of a "
+                    "command is an item of the outer list",
+                )
             elif _joined(file.value(word)):
                 yield (
                     word.lineno,

@@ -86,6 +86,24 @@ def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
+    """Find a Time that is asked whether it equals a number, which it never does."""
+    numbers, values = named_numbers(tree), _values(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+            continue
+        code = ast.unparse(node.left)
+        now = code.endswith("get_clock().now()") or [
+            ast.unparse(each).endswith("get_clock().now()") for each in values.get(code, [])
+        ] == [True]
+        if now and number(node.comparators[0], numbers) is not None:
+            yield (
+                node.lineno,
+                f"{ast.unparse(node)[:70]}: {code} is a Time and never equal to a number: the seconds that have passed "
+                "are (now - start).nanoseconds / 1e9, and >= holds from a moment on",
+            )
+
+
 def negative_times(tree: ast.AST) -> Iterator[Place]:
     """Find `start - now`, which is negative and so always less than any limit."""
     values = _values(tree)
@@ -169,4 +187,4 @@ def _common(units: list[float | None]) -> float | None:
     return first if first is not None and all(u is not None and math.isclose(u, first) for u in units) else None
 
 
-LOOKS = (wrong_units, negative_times, parts_of_a_second)
+LOOKS = (wrong_units, negative_times, parts_of_a_second, times_as_numbers)

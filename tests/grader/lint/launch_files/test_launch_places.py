@@ -117,6 +117,7 @@ def test_a_right_file_has_none():
         ('"-r", world], condition=UnlessCondition', '"-r", world], condition=IfCondition', "UnlessCondition is the"),
         ('"--ros-args", "-p", "use', '"--ros-args -p use', "is one word here"),
         ('"-s", "-r"', '"-s -r"', "'-s', '-r'"),
+        ('sys.executable, str(HERE / "watch.py"), "--r', '["python3", "a.py", "-v"], "--r', "is one word"),
         ('"--ros-args", "-p", ', '" ".join(["--ros-args", "-p"]), ', "join() makes a single word of several"),
         ('str(HERE / "watch.py"), "--ros-args", ', 'f"{HERE}/watch.py --ros-args", ', "file name and --ros-args"),
         ('"--ros-args", "-p", ', '"-p", ', "--ros-args is missing before"),
