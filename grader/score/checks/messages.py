@@ -23,6 +23,7 @@ from gz_course.grader.score.events import texts as texts_of
 from gz_course.grader.score.explanations.texts import difference, too_many, wrong_moment
 from gz_course.grader.score.explanations.too_early_or_late import (
     added_up,
+    answers_itself,
     counted_late,
     counted_too_far,
     sent_again,
@@ -73,7 +74,12 @@ def messages(recording: Recording, parameters: Table) -> Finding:
         asked = (window[0], window[1])
         why = counted_late(recording, times, asked) or added_up(recording, times, asked) or wrong_moment(times, asked)
     elif not passed and counts.sum() > most:
-        why = counted_too_far(recording, times) or sent_again(recording) or too_many(times, recording.ended_s)
+        why = (
+            counted_too_far(recording, times)
+            or sent_again(recording)
+            or answers_itself(recording, f"/{topic}", times)
+            or too_many(times, recording.ended_s)
+        )
     elif not passed and sent > most:
         why = sent_too_early(recording)
     return Finding(passed, expected, measured, round(at, 3), timing=window is not None, explanation=why)

@@ -5,6 +5,7 @@ import pytest
 
 from gz_course.grader.score.explanations.too_early_or_late import (
     added_up,
+    answers_itself,
     counted_late,
     counted_too_far,
     sent_again,
@@ -40,6 +41,7 @@ SLEEP = TIMER | {"line": 7, "kind": "sleep"}
     [
         ([TIMER, SLEEP], 2.0, "line 4: the timer waits 1 s before its first call and the sleep in line 7 takes 1 s"),
         ([SLEEP | {"rounds": 2}], 2.0, "line 7: the sleep takes 1 s 2 times"),
+        ([SLEEP | {"rounds": 2}, SLEEP | {"line": 9}], 2.0, "line 7: the sleep takes 1 s 2 times"),
         ([TIMER | {"seconds": 0.2}], 0.2, "line 4: the timer waits 0.2 s before its first call"),
         ([TIMER | {"seconds": 0.5}], 2.0, "calls every 0.5 s, and the message came in call 4"),
         ([TIMER, SLEEP], 1.0, ""),
@@ -62,3 +64,11 @@ def test_a_message_before_anybody_listens(record):
     early = {"early_publishing": [{"file": "n.py", "line": 5, "function": "__init__"}]}
     assert "n.py, line 5: what is published here in __init__ is sent before" in sent_too_early(record(facts=early))
     assert sent_too_early(record()) == ""
+
+
+@pytest.mark.parametrize(("number", "node", "named"), [(200, "/a", True), (3, "/a", False), (200, "/b", False)])
+def test_a_node_that_answers_itself(record, number, node, named):
+    ends = [{"topic": "/hello", "node": "/a", "kind": "publisher"}]
+    ends.append({"topic": "/hello", "node": node, "kind": "subscription"})
+    said = answers_itself(record(facts={"endpoints": ends}), "/hello", np.ones(number))
+    assert ("your node subscribes to /hello" in said) == named
