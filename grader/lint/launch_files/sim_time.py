@@ -45,7 +45,15 @@ def _texts(file: LaunchFile, call: ast.Call) -> set[str]:
 
 
 def _unknown(file: LaunchFile, call: ast.Call) -> Iterator[bool]:
-    """Yield for each word of the command of an action whether it may hold anything: the result of a function."""
+    """Yield whether simulated time may come to an action in a way that is not seen in it.
+
+    It may come from a SetParameter or a parameter file, for a node, and from words that a function returns.
+    """
+    if last_name(call.func) == "Node":
+        given = file.value(argument(call, "parameters"))
+        files = given.elts if isinstance(given, ast.List | ast.Tuple) else []
+        yield any(not isinstance(file.value(each), ast.Dict) for each in files)
+        yield any(file.calls("SetParameter", "SetUseSimTime", "SetParametersFromFile"))
     name = "arguments" if last_name(call.func) == "Node" else "cmd"
     given = file.value(argument(call, name, 0 if name == "cmd" else None))
     words = given.elts if isinstance(given, ast.List | ast.Tuple) else []

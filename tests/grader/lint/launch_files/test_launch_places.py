@@ -276,3 +276,13 @@ def test_a_bridge_has_its_condition():
 def test_a_text_in_an_expression_is_no_truth(expression, named):
     found = slips(RIGHT.replace('"-r", world', f"PythonExpression({expression}), world"))
     assert any("whether a text in quotes is true" in each for each in found) == named
+
+
+@pytest.mark.parametrize(
+    ("parameters", "sim_time"), [("[HERE / 'watch.yaml']", True), ("[{'speed': 1.0}]", False), ("[]", False)]
+)
+def test_a_parameter_file_may_hold_simulated_time(parameters, sim_time):
+    begin, end = RIGHT.index("watch = ExecuteProcess("), RIGHT.index("after = Register")
+    node = f"watch = Node(executable=str(HERE / 'watch.py'), parameters={parameters})\n    "
+    (place,) = launch_places((RIGHT[:begin] + node + RIGHT[end:]).encode())["programs"]
+    assert place["sim_time"] == sim_time
