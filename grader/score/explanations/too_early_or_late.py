@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -65,7 +66,7 @@ def _part(delay: dict[str, Any], first: dict[str, Any]) -> str:
 def counted_too_far(recording: Recording, times: np.ndarray) -> str:
     """Return which counter lets one message too many through, if it makes as many as arrived."""
     for place in recording.facts().get("counters", []):
-        if len(times) == place["limit"] + 1 and (">" in place["code"] or "<=" in place["code"]):
+        if len(times) == place["limit"] + 1 and re.search(r"> |<= ", place["code"]):
             return (
                 f"{place['file']}, line {place['line']}: {place['code']} looks at {place['counter']} before line "
                 f"{place['added']} adds 1, so it is 0 at the first message and {len(times) - 1} at the last: "

@@ -24,7 +24,14 @@ def test_a_counter_that_is_looked_at_too_soon(record, first, limit, named):
 
 
 @pytest.mark.parametrize(
-    ("code", "number", "named"), [("self.n > 1", 2, True), ("self.n > 1", 3, False), ("self.n == 1", 2, False)]
+    ("code", "number", "named"),
+    [
+        ("self.n > 1", 2, True),
+        ("self.n > 1", 3, False),
+        ("self.n == 1", 2, False),
+        ("self.n >= 1", 2, False),
+        ("self.n <= 1", 2, True),
+    ],
 )
 def test_a_counter_that_lets_one_too_many_through(record, code, number, named):
     recording = record(facts={"counters": [COUNTER | {"code": code}]})
