@@ -93,6 +93,9 @@ def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
             value = text(word)
             if " " in value or not value.lstrip("_-").startswith(SIM_TIME):
                 continue
+            if value.replace(" ", "").lower() == f"{SIM_TIME}:=false":
+                yield word.lineno, f"{value} turns simulated time off: the node keeps the time of the computer"
+                continue
             if value.startswith(("_", "-")):
                 yield word.lineno, f"{value} sets no parameter in ROS 2: the words are --ros-args -p {SIM_TIME}:=true"
                 continue
@@ -184,6 +187,29 @@ def _file_as_topic(file: LaunchFile, arguments: ast.expr) -> Iterator[Place]:
                 "the arguments of parameter_bridge are topics; its file is the value of its parameter config_file: "
                 "parameters=[{'config_file': PATH}]",
             )
+
+
+def files_as_topics(file: LaunchFile) -> Iterator[Place]:
+    """Find the bridge's file among the words behind `ros2 run ros_gz_bridge parameter_bridge`."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        if given is not None and "parameter_bridge" in ast.unparse(call) and "config_file" not in ast.unparse(call):
+            yield from _file_as_topic(file, given)
+
+
+def variables_of_the_shell(file: LaunchFile) -> Iterator[Place]:
+    """Find `$world` in a command, where `world` is an argument of the launch."""
+    names = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")} - {""}
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        for node in ast.walk(given) if given is not None else ():
+            for name in re.findall(r"\$\{?(\w+)", text(node)):
+                if name in names and isinstance(node, ast.Constant):
+                    yield (
+                        node.lineno,
+                        f"${name} is a variable of a shell, which knows no arguments of the launch: the value is "
+                        f"LaunchConfiguration('{name}'), an item of the list",
+                    )
 
 
 def parameters_in_the_environment(file: LaunchFile) -> Iterator[Place]:
@@ -293,5 +319,6 @@ def axes_of_create(file: LaunchFile) -> Iterator[Place]:
 
 LOOKS = (
     axes_of_create, glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
-    sim_time_for_others, arguments_for_nobody, detached, parameters_in_the_environment, parameters_for_what_follows,
+    sim_time_for_others, arguments_for_nobody, detached, parameters_in_the_environment, files_as_topics,
+    variables_of_the_shell, parameters_for_what_follows,
 )  # fmt: skip
