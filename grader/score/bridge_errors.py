@@ -39,7 +39,7 @@ MEANINGS = (
         "between a key and its value stand a colon and a space in YAML, and no {0}",
     ),
     (
-        re.compile(r"expected <block end>, but found '(?:\?|<block)"),
+        re.compile(r"expected <block end>, but found '(?:\?|<block)[^;]*$"),
         "a line begins in another column than those it belongs to: all keys of one entry stand below each other",
     ),
 )

@@ -31,6 +31,7 @@ STARTED = 0.05  # [s] of simulated time: who ended before that ended before simu
 # Topics of every ROS 2 node, which say nothing about the exercise.
 OWN_TOPICS = frozenset({"/rosout", "/parameter_events", "/clock"})
 
+LOST = "before anybody has found the publisher"  # words of a check's explanation that says so itself
 
 # Returns one sentence about a fault, or an empty string, given a recording and its facts.
 Look = Callable[[Recording, dict[str, Any]], str]
@@ -106,7 +107,7 @@ def cannot_run(recording: Recording, facts: dict[str, Any]) -> str:
 def slip(recording: Recording, facts: dict[str, Any]) -> str:
     """Name the mistake in the file for which the node died, ended, never spun or never spoke; then say that it did."""
     what = next(filter(None, (look(recording, facts) for look in (died, ended_early, never_spun, out_of_time))), "")
-    what = what or (silent(recording, facts) if _of(facts, "publisher") else "")
+    what = what or (silent if _of(facts, "publisher") else publishers)(recording, facts)
     return f"{slips(recording)} {what}" if what and facts.get("slips") else ""
 
 
@@ -194,7 +195,9 @@ def publishers(recording: Recording, facts: dict[str, Any]) -> str:
         if near := nearest_name(topic, topics) or next(iter(twins), ""):
             why = _why(topic, near, [e["node"] for e in published if e["topic"] == near])
             return f"Nothing is published on {topic}; your node publishes on {near} instead.{why}"
-        return f"Your node has no publisher on {topic} ({kind})."
+        listens = any(e["topic"] == topic for e in _of(facts, "subscription"))
+        instead = ", but a subscription, which listens: create_publisher() makes a publisher" if listens else ""
+        return f"Your node has no publisher on {topic} ({kind}){instead}."
     return ""
 
 
@@ -298,6 +301,8 @@ def _too_early(facts: dict[str, Any], topic: str) -> str:
 def too_early(recording: Recording, findings: Iterable[Finding]) -> str:
     """Return a sentence about the first topic with messages that were published too early; empty if there is none."""
     facts = recording.facts()
+    if any(LOST in finding.explanation for finding in findings):
+        return ""
     return next(filter(None, (_too_early(facts, topic) for topic in facts.get("listened", {}))), "")
 
 

@@ -87,6 +87,16 @@ MEANINGS = (
         "Command joins its parts as they are, and the space behind xacro is missing: ['xacro ', path]",
     ),
     (
+        re.compile(r"'LaunchConfiguration' object has no attribute '(?!perform)(\w+)'"),
+        "a LaunchConfiguration is no text and has no {0}: its value is known when the launch runs, where the function "
+        "of an OpaqueFunction gets it with perform(context)",
+    ),
+    (
+        re.compile(r"invalid condition expression: '(\w+)'"),
+        "the condition gets the text {0}, which is neither true nor false; the value of an argument is "
+        "LaunchConfiguration('NAME'), not its name in quotes",
+    ),
+    (
         re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
         "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
         "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is handed over",

@@ -27,6 +27,7 @@ DIED = re.compile(r"^\[ERROR\] \[([^\]]+-\d+)\]: process has died .*exit code (-
 ERROR = re.compile(r"^\[ERROR\] (?:\[[\d.]+\] )?\[[^\]]+\]: (.*)")  # of a ROS log
 # A file that was given by a relative path and not found, as the bridge and Python say it (Python adds its folder).
 NO_FILE = re.compile(r"(?:^|: |open file ')((?:/(?!submission)\w+/)?[\w.-]+\.\w+)'?: .*No such file or directory")
+OTHER_FOLDER = re.compile(r"(?:^|: |open file ')(/(?:[\w.-]+/)*)([\w.-]+\.\w+)'?: .*No such file or directory")
 OF_A_FILE = re.compile(r"([\w.-]+\.py)/[\w./-]+'?: .*Not a directory")
 NOT_STARTED = re.compile(r"^\[ERROR\] \[[^\]]+-\d+\]: (.*(?:there is no program '|cannot be started).*)")
 GLUED = re.compile(r"argument (-\w): ignored explicit argument '([^']+)'")
@@ -156,6 +157,16 @@ def simulator_fault(said: str, recording: Recording) -> str:
     names = {place["name"] for place in recording.facts().get("declared", [])}
     if " object at 0x" in given:
         return "the description of a Python object stands in the command, not the value of a launch configuration"
+    if match := re.search(r"\$\((?:var|arg) (\w+)\)", given):
+        return (
+            f"'{match[0]}' is a text in a launch file in Python; XML and YAML write it so, and Python writes "
+            f"LaunchConfiguration('{match[1]}')"
+        )
+    if match := re.search(r"\{(\w+)[^}]*\}", given):
+        return (
+            f"'{match[0]}' is a text, with its braces: the LaunchConfiguration itself, not in quotes, is the item of "
+            "the list, and gets its value when the launch runs"
+        )
     if given in names:
         return f"'{given}' is a text; the value of the argument is LaunchConfiguration('{given}')"
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
@@ -166,6 +177,46 @@ def simulator_fault(said: str, recording: Recording) -> str:
             "and are named without a folder"
         )
     return ""
+
+
+def several_simulators(recording: Recording) -> str:
+    """Return which action starts a simulator that no condition keeps back; empty if that is unknown."""
+    made = recording.facts().get("simulators_made", [])
+    free = [each for each in made if not each["condition"]]
+    bound = [each for each in made if each["condition"]]
+    if len(made) < 2:
+        return ""
+    if free and bound:
+        return (
+            f"{free[0]['file']}, line {free[0]['line']}: this simulator has no condition, so it starts in any case, "
+            f"beside that of line {bound[0]['line']}, which has condition={bound[0]['condition']}: it needs the "
+            "opposite condition"
+        )
+    if free:
+        return (
+            f"{free[0]['file']}, line {free[1]['line']}: a second simulator is started here, beside that of line "
+            f"{free[0]['line']}, and no condition keeps either back: IfCondition and UnlessCondition let one start"
+        )
+    if len({each["condition"] for each in bound}) == 1:
+        return (
+            f"{bound[0]['file']}, line {bound[1]['line']}: this simulator has the same condition as that of line "
+            f"{bound[0]['line']}, {bound[0]['condition']}, so both start: it needs the opposite one"
+        )
+    return ""
+
+
+def kept_back(recording: Recording, kind: str) -> str:
+    """Return the condition that keeps all actions of a kind (`simulators_made`, `bridges_made`) back, or nothing."""
+    made = recording.facts().get(kind, [])
+    if not made or not all(each["condition"] for each in made):
+        return ""
+    what, other = made[0], "; nothing else starts one"
+    if len(made) > 1:
+        other = f", and that of line {made[1]['line']} only with condition={made[1]['condition']}"
+    return (
+        f"{what['file']}, line {what['line']}: this starts only with condition={what['condition']}{other}, so that "
+        "here nothing did"
+    )
 
 
 def declared(recording: Recording, name: str, default: str) -> str:
@@ -189,7 +240,13 @@ def looked_elsewhere(said: str) -> str:
     if match := OF_A_FILE.search(said):
         return f"{match[1]} is the launch file itself, not a folder: its folder is Path(__file__).parent"
     if not (match := NO_FILE.search(said)):
-        return ""
+        match = OTHER_FOLDER.search(said)
+        return (
+            f"{match[2]} was looked for in the folder {match[1]}, where it does not lie; the folder of the launch "
+            "file is Path(__file__).parent"
+            if match
+            else ""
+        )
     name = match.group(1).rpartition("/")[2]
     return (
         f"{name} was looked for in the folder in which ros2 launch was called, not beside the launch file: give its "

@@ -83,9 +83,9 @@ def why_not_started(error: Exception, command: list[str], cwd: str | None, conte
     program = command[0]
     if isinstance(error, FileNotFoundError) and cwd is not None and error.filename == cwd:
         return f"'{program}' cannot be started in the folder '{cwd}', which does not exist"
-    if isinstance(error, NotADirectoryError):
+    if isinstance(error, NotADirectoryError) and cwd is not None:
         return f"'{program}' cannot be started in '{cwd}', which is no folder"
-    if isinstance(error, FileNotFoundError):
+    if isinstance(error, FileNotFoundError | NotADirectoryError):
         return f"there is no program '{program}' to be started{nearest_program(program, context)}"
     if isinstance(error, PermissionError):
         return f"'{program}' cannot be started: it is not executable (chmod +x makes it so)"

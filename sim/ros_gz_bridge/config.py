@@ -197,8 +197,20 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
     found = lines[line] if line < len(lines) else ""
     if "\\t" in problem or "\t" in found[: len(found) - len(found.lstrip())]:
         return "; YAML is indented with spaces, never with tabs"
-    if re.match(r"\s*(- )?\w+:[^\s/]", found):
+    if re.match(r"\s*(- )?\w+:(?!//)\S", found):
         return "; a space is missing after the colon"
+    if re.match(r"\s*-\w+:", found):
+        return "; a space is missing after the dash"
+    if re.match(r"\s*(- )?\w+\s*=", found):
+        return "; between a key and its value stand a colon and a space, and no ="
+    if re.match(r"\s*(- )?\w+: [^'\"#{\[]*: ", found):
+        return "; two colons stand in this line: each key has a line of its own with its value"
+    if re.match(r"\s*(- )?\w+: [@`%&*!|>]", found):
+        return "; a value that begins with such a sign needs quotation marks"
+    if found.startswith("- ") and "document start" in problem:
+        return "; the dash of the first entry, above, is missing"
+    if "{" in found or "[" in found or "}" in found:
+        return _in_braces(problem, found)
     before = next((n for n in range(line - 1, -1, -1) if lines[n].split("#")[0].strip()), None)
     if problem == "mapping values are not allowed here" and before is not None:
         if re.match(r"\s*-\w+:", lines[before]):
@@ -209,6 +221,17 @@ def _hint(problem: str, text: str | bytes, line: int) -> str:
             return f"; there is no colon in line {before + 1}"
         if _column(lines[before]) < _column(found):
             return f"; it is indented further than line {before + 1}"
+    return ""
+
+
+def _in_braces(problem: str, found: str) -> str:
+    """Return a hint about a line with braces or brackets."""
+    if "expected ','" in problem and "got ':'" in problem:
+        return "; a comma is missing between two keys in these braces"
+    if "expected ','" in problem:
+        return "; a brace or bracket that opens before this place is never closed"
+    if found.count("}") > found.count("{") or found.count("]") > found.count("["):
+        return "; it closes a brace or bracket that nothing has opened"
     return ""
 
 
@@ -229,15 +252,22 @@ def _entry(file_name: str, node: yaml.Node, findings: list[Finding], lazy: bool)
         return None
     values: dict[str, Value] = {}
     first_line: dict[str, int] = {}
-    for key_node, value_node in node.value:
+    no_dash = False
+    keys = [key_node.value for key_node, _ in node.value if isinstance(key_node, yaml.ScalarNode)]
+    for number, (key_node, value_node) in enumerate(node.value):
         key = key_node.value if isinstance(key_node, yaml.ScalarNode) else None
         here = _place(file_name, key_node)
         if key is None or key not in (*KEYS, *SERVICE_KEYS):
             findings.append(Finding(here, unknown_key(key), tolerated=True))
         elif key in first_line:
-            sentence = (
-                f"'{key}' is given twice (first in line {first_line[key]}, which counts); keep one, or "
-                "write '- ' before it if another bridge begins here"
+            several = sum(other in first_line for other in keys[number:]) > 1
+            if no_dash:
+                continue
+            no_dash = several
+            sentence = f"'{key}' is given twice (first in line {first_line[key]}, which counts); " + (
+                f"so are those below it: a dash is missing here, '- {key}:' begins the next bridge"
+                if several
+                else "keep one, or write '- ' before it if another bridge begins here"
             )
             findings.append(Finding(here, sentence, tolerated=True))
         else:

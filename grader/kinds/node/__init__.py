@@ -11,7 +11,11 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
+from gz_course.grader.lint.counters import counters
+from gz_course.grader.lint.delays import delays
+from gz_course.grader.lint.early_publishing import early_publishing
 from gz_course.grader.lint.origins import conditions, of_the_drive, origins
+from gz_course.grader.lint.repetitions import repetitions
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.message_fields import message_fields
 from gz_course.grader.lint.slips.sequences import silent_log
@@ -74,8 +78,12 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
         "conditions": conditions(content),
+        "counters": counters(content),
+        "delays": delays(content),
+        "early_publishing": early_publishing(content),
         "origins": origins(content),
         "of_the_drive": of_the_drive(content),
+        "repetitions": repetitions(content),
         "lookups": lookups(content),
         "shared_headers": shared_headers(content),
         "silent_log": silent_log(content),

@@ -74,6 +74,8 @@ def _found(root: yaml.Node) -> str:
     """Return the end of a sentence on what a file holds that is no list of rows."""
     import yaml
 
+    if isinstance(root, yaml.ScalarNode) and "," in str(root.value):
+        return ". Commas separate nothing in this file: each column has a line of its own, 'COLUMN: VALUE'"
     if not isinstance(root, yaml.MappingNode) or not isinstance(root.value[0][0], yaml.ScalarNode):
         return ""
     key = shown(str(root.value[0][0].value), 60)
@@ -89,13 +91,16 @@ def _row(node: yaml.Node) -> dict[str, Any]:
         raise TableError(_line(node), f"expected a row (lines of 'column: value'): {', '.join(COLUMNS)}")
     row: dict[str, Any] = {"line": _line(node)} | dict.fromkeys(COLUMNS, "")
     first: dict[str, int] = {}
-    for key, value in node.value:
+    columns = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
+    for place, (key, value) in enumerate(node.value):
         column = key.value if isinstance(key, yaml.ScalarNode) else ""
         if column not in COLUMNS:
             hint = did_you_mean(str(column), COLUMNS) or "; a note of your own stands behind a #, not in a column"
             raise TableError(_line(key), f"there is no column {shown(str(column), 60)!r}{hint}")
         if column in first:
-            raise TableError(_line(key), f"{column} stands twice in one row (first in line {first[column]})")
+            again = sum(other in first for other in columns[place:])
+            dash = f": a dash is missing here, '- {column}:' begins the next row" if again > 1 else ""
+            raise TableError(_line(key), f"{column} stands twice in one row (first in line {first[column]}){dash}")
         first[column] = _line(key)
         row[column] = _text(column, value)
     return row

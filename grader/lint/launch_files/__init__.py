@@ -12,8 +12,10 @@ from typing import Any
 
 from gz_course.grader.lint.launch_files import actions, commands, unread, values
 from gz_course.grader.lint.launch_files.commas import missing_commas
+from gz_course.grader.lint.launch_files.conditions import bridges, simulators
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
+from gz_course.grader.lint.launch_files.sim_time import programs
 from gz_course.grader.lint.slips.late_binding import late_bound
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -24,9 +26,11 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
     """Return the places in a launch file, none if it is not Python.
 
     `launch_slips` are mistakes: `line` and `said`, the words of a sentence. `fixed_worlds` are worlds that a command
-    names as a text: `line` and `world`. `declared` are the arguments that the file declares: `line`, `name`
-    and `default` (a text, or empty). `remappings` are those of its nodes, as `remappings.py` says. `nodes` are the
-    programs that come with the file, by name.
+    names as a text: `line` and `world`. `declared` are the arguments that the file declares, and the configurations
+    with a default that nothing declares: `line`, `name` and `default` (a text, or empty). `remappings` are those of its
+    nodes, as `remappings.py` says. `programs` are the Python programs that it starts, as `sim_time.py` says, and
+    `simulators_made` and `bridges_made` the actions that start a simulator or a bridge, as `conditions.py` says.
+    `nodes` are the programs that come with the file, by name.
     """
     found: dict[str, Places] = {}
 
@@ -45,7 +49,16 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
             }
             for call in file.calls("DeclareLaunchArgument")
         ]
+        names = {place["name"] for place in found["declared"]}
+        found["declared"] += [
+            {"line": call.lineno, "name": name, "default": text(file.value(argument(call, "default")))}
+            for call in file.calls("LaunchConfiguration")
+            if argument(call, "default") and (name := text(argument(call, "variable_name", 0))) not in names
+        ]
         found["remappings"] = list(remappings(file))[: 2 * MOST]
+        found["programs"] = list(programs(file))[: 2 * MOST]
+        found["bridges_made"] = list(bridges(file))[: 2 * MOST]
+        found["simulators_made"] = list(simulators(file))[: 2 * MOST]
         return []
 
     places_in(content, look)

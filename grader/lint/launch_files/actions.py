@@ -82,7 +82,7 @@ def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
     for call in file.calls("OnProcessExit"):
         then = argument(call, "on_exit")
         target = argument(call, "target_action", 0)
-        what = _endless(*(file.parts(target) if target is not None else [file.tree]))
+        what = endless(*(file.parts(target) if target is not None else [file.tree]))
         ends = any(text(each) in ("create", "remove") for each in file.nodes)
         if what and then is not None and _starts(then, file) and not (target is None and ends):
             yield (
@@ -123,7 +123,7 @@ def waited_for_and_never_started(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def _endless(*parts: ast.AST) -> str:
+def endless(*parts: ast.AST) -> str:
     """Return the name of the program that an action starts, if it is a simulator or a bridge; else nothing."""
     said = [text(each) for part in parts for each in ast.walk(part)]
     if {"gz", "sim"} <= set(said) or any(each.startswith("gz sim") for each in said):
@@ -164,7 +164,7 @@ def swapped_conditions(file: LaunchFile) -> Iterator[Place]:
         if kind not in ("IfCondition", "UnlessCondition") or not name.startswith("pause"):
             continue
         words = [text(each) for part in (*call.args, *call.keywords) for each in ast.walk(part)]
-        if not _endless(call) or any("$" in word for word in words):
+        if not endless(call) or any("$" in word for word in words):
             continue
         runs = any("-r" in word.split() for word in words)
         if runs == (kind == "IfCondition"):

@@ -43,12 +43,13 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
     """Find several words of a command line in one item of the list."""
     for words in _commands(file):
         for word in words:
-            parts = text(word).split()
+            said = text(file.value(word))
+            parts = said.split()
             if len(parts) > 1 and OPTION.match(parts[0]):
                 apart = ", ".join(repr(part) for part in parts)
                 yield (
                     word.lineno,
-                    f"{text(word).strip()!r} is one word here, with spaces in it: the program gets it as a single "
+                    f"{said.strip()!r} is one word here, with spaces in it: the program gets it as a single "
                     f"argument. Each word is an item of its own: {apart}",
                 )
             elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in ast.walk(word)):
@@ -57,6 +58,29 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     "file name and --ros-args are one word here, with spaces in it: each word of a command is an item "
                     "of its own in the list",
                 )
+            elif isinstance(inner := file.value(word), ast.List) and any(
+                OPTION.match(text(each)) for each in inner.elts[1:]
+            ):
+                yield (
+                    word.lineno,
+                    "a list inside of the list is one word: launch joins its parts without spaces. Each word of a "
+                    "command is an item of the outer list",
+                )
+            elif _joined(file.value(word)):
+                yield (
+                    word.lineno,
+                    "join() makes a single word of several, with spaces in it: each word of a command is an item of "
+                    "its own in the list",
+                )
+
+
+def _joined(word: ast.expr | None) -> bool:
+    """Whether an expression joins words of a command to one text, with spaces between them."""
+    method = word.func if isinstance(word, ast.Call) else None
+    if not isinstance(method, ast.Attribute) or method.attr != "join" or text(method.value) != " ":
+        return False
+    words = [each for part in word.args for each in ast.walk(part)] if isinstance(word, ast.Call) else []
+    return any(OPTION.match(text(each)) for each in words)
 
 
 def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
@@ -68,6 +92,9 @@ def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
         for before, word in zip(["", *said], words, strict=False):
             value = text(word)
             if " " in value or not value.lstrip("_-").startswith(SIM_TIME):
+                continue
+            if value.replace(" ", "").lower() == f"{SIM_TIME}:=false":
+                yield word.lineno, f"{value} turns simulated time off: the node keeps the time of the computer"
                 continue
             if value.startswith(("_", "-")):
                 yield word.lineno, f"{value} sets no parameter in ROS 2: the words are --ros-args -p {SIM_TIME}:=true"
@@ -128,6 +155,8 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
             continue
         given = file.value(argument(call, "parameters"))
         arguments = argument(call, "arguments")
+        if arguments is not None and "config_file" not in ast.unparse(call):
+            yield from _file_as_topic(file, arguments)
         if not isinstance(given, ast.List):
             continue
         names = [text(key) for each in given.elts if isinstance(each, ast.Dict) for key in each.keys]
@@ -146,6 +175,55 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
                 f"the bridge gets a parameter called {other}, which it does not know: its file is the value of "
                 "config_file",
             )
+
+
+def _file_as_topic(file: LaunchFile, arguments: ast.expr) -> Iterator[Place]:
+    """Find the bridge's file among its arguments, which are topics."""
+    given = file.value(arguments)
+    for word in given.elts if isinstance(given, ast.List | ast.Tuple) else []:
+        if any(text(each).endswith((".yaml", ".yml")) for part in file.parts(word) for each in ast.walk(part)):
+            yield (
+                word.lineno,
+                "the arguments of parameter_bridge are topics; its file is the value of its parameter config_file: "
+                "parameters=[{'config_file': PATH}]",
+            )
+
+
+def files_as_topics(file: LaunchFile) -> Iterator[Place]:
+    """Find the bridge's file among the words behind `ros2 run ros_gz_bridge parameter_bridge`."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        if given is not None and "parameter_bridge" in ast.unparse(call) and "config_file" not in ast.unparse(call):
+            yield from _file_as_topic(file, given)
+
+
+def variables_of_the_shell(file: LaunchFile) -> Iterator[Place]:
+    """Find `$world` in a command, where `world` is an argument of the launch."""
+    names = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")} - {""}
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        for node in ast.walk(given) if given is not None else ():
+            for name in re.findall(r"\$\{?(\w+)", text(node)):
+                if name in names and isinstance(node, ast.Constant):
+                    yield (
+                        node.lineno,
+                        f"${name} is a variable of a shell, which knows no arguments of the launch: the value is "
+                        f"LaunchConfiguration('{name}'), an item of the list",
+                    )
+
+
+def parameters_in_the_environment(file: LaunchFile) -> Iterator[Place]:
+    """Find use_sim_time as an environment variable, or as an argument that a program's own code would have to read."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "SetEnvironmentVariable"):
+        own = last_name(call.func) == "SetEnvironmentVariable"
+        given = [argument(call, "env"), argument(call, "additional_env"), argument(call, "name", 0) if own else None]
+        for part in given:
+            if part is not None and any(text(each).lower() == SIM_TIME for each in ast.walk(file.value(part) or part)):
+                yield (
+                    part.lineno,
+                    f"{SIM_TIME} is a parameter of a node, and no environment variable: the words of its command are "
+                    f"--ros-args -p {SIM_TIME}:=true",
+                )
 
 
 def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
@@ -241,5 +319,6 @@ def axes_of_create(file: LaunchFile) -> Iterator[Place]:
 
 LOOKS = (
     axes_of_create, glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
-    sim_time_for_others, arguments_for_nobody, detached, parameters_for_what_follows,
+    sim_time_for_others, arguments_for_nobody, detached, parameters_in_the_environment, files_as_topics,
+    variables_of_the_shell, parameters_for_what_follows,
 )  # fmt: skip

@@ -18,6 +18,8 @@ from gz_course.grader.lint.syntax import last_name
 TRUTHS = frozenset({"True", "False"})
 EQUALS = frozenset({"EqualsSubstitution", "NotEqualsSubstitution", "LaunchConfigurationEquals"})
 PYTHON_TRUTH = re.compile(r"[=!]=\s*['\"]?(True|False)\b")
+VALUE = "VALUE"  # what stands for the text of a configuration in an expression
+TEXT_TRUTH = re.compile(rf"\b(?:if|not|and|or)\s+['\"]{VALUE}['\"]\s*(?:$|\)|\belse\b|\band\b|\bor\b)")
 WORLD = re.compile(r"(?:^|[\s/])([\w-]+\.(?:sdf|world))$")
 
 
@@ -118,6 +120,20 @@ def python_truths(file: LaunchFile) -> Iterator[Place]:
                 yield node.lineno, f"this expression compares with '{match[1]}': {_small(match[1])}"
 
 
+def expressions_of_truth(file: LaunchFile) -> Iterator[Place]:
+    """Find a PythonExpression that asks whether a text is true: 'false' in quotes is true, too."""
+    for call in file.calls("PythonExpression"):
+        given = file.value(argument(call, "expression", 0))
+        parts = given.elts if isinstance(given, ast.List | ast.Tuple) else []
+        said = "".join(text(each) if isinstance(each, ast.Constant) else VALUE for each in parts)
+        if TEXT_TRUTH.search(said):
+            yield (
+                call.lineno,
+                "this expression asks whether a text in quotes is true, and every text that is not empty is, 'false' "
+                "as well: compare it, [\"'\", value, \"' == 'true'\"]",
+            )
+
+
 def _small(truth: str) -> str:
     return f"the value of an argument is the text that was typed, '{truth.lower()}' in small letters, not '{truth}'"
 
@@ -149,4 +165,6 @@ def fixed_worlds(file: LaunchFile) -> Iterator[Place]:
                     yield part.lineno, match[1]
 
 
-LOOKS = (decided_too_early, written_into_text, texts_as_truths, python_truths, words_of_the_command)
+LOOKS = (
+    decided_too_early, written_into_text, texts_as_truths, python_truths, expressions_of_truth, words_of_the_command,
+)  # fmt: skip

@@ -26,9 +26,10 @@ from gz_course.grader.lint.slips import (
     no_time_passed,
     not_what_they_seem,
     parameters,
-    rotations,
+    publishers,
     resets,
     results,
+    rotations,
     scan_callbacks,
     searches,
     sequences,
@@ -52,9 +53,7 @@ ROOMS = (
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
-    rotations.LOOKS, limits.LOOKS,
-    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, conditions.LOOKS,
-    resets.LOOKS, results.LOOKS, states.LOOKS,
+    rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
 )  # fmt: skip
 
 

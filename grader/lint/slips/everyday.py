@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.callbacks import handed_over
-from gz_course.grader.lint.syntax import Place, calls, functions
+from gz_course.grader.lint.syntax import Place, calls, functions, last_name
 
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
@@ -77,6 +77,24 @@ def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
             )
         elif period == 0 and "//" in code:
             yield call.lineno, f"{code} is 0, because // leaves out the fraction: / divides numbers"
+
+
+def long_sleeps(tree: ast.AST) -> Iterator[Place]:
+    """Find a sleep of minutes with a publish() behind it in its block, which hardly waits for that."""
+    known = named_numbers(tree)
+    for block in (node.body for node in ast.walk(tree) if isinstance(node, ast.Module | ast.FunctionDef)):
+        for place, statement in enumerate(block):
+            call = statement.value if isinstance(statement, ast.Expr) else None
+            if not isinstance(call, ast.Call) or last_name(call.func) != "sleep" or not call.args:
+                continue
+            seconds = number(call.args[0], known)
+            published = any(name == "publish" for behind in block[place:] for _, name in calls(behind))
+            if seconds is not None and seconds >= LONGEST_PERIOD and published:
+                yield (
+                    call.lineno,
+                    f"{ast.unparse(call)} takes seconds: what is behind it runs only after {seconds / 60:.0f} minutes; "
+                    f"{seconds:g} ms are {seconds / 1000:g}",
+                )
 
 
 def decimal_commas(tree: ast.AST) -> Iterator[Place]:
@@ -190,5 +208,5 @@ def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
 
 LOOKS = (
     constructors, main_not_called, not_called, decimal_commas, sets_for_numbers,
-    strings_with_braces, strengths, stray_methods, blocking, waits_for_transforms,
+    strings_with_braces, strengths, stray_methods, blocking, waits_for_transforms, long_sleeps,
 )  # fmt: skip

@@ -108,7 +108,7 @@ def not_called(tree: ast.AST) -> Iterator[Place]:
             match node:
                 case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(ast.Not(), test):
                     parts = [test]
-                case ast.BoolOp(values=parts):
+                case ast.BoolOp(values=[*parts, _]):  # the last one may be a value, as in `given or self.method`
                     pass
                 case ast.Compare(left=test, comparators=[ast.Constant(value=True | False)]):
                     parts = [test]

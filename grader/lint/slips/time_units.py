@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, last_name
 
 UNITS = {1e-9: "nanoseconds", 1e-6: "microseconds", 1e-3: "milliseconds", 1.0: "seconds", 60.0: "minutes"}
 SHORTEST = 0.02  # [s] a shorter time, written in another unit than seconds, is compared with by mistake
@@ -82,6 +82,40 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
         else:
             if abs(seconds) > LONGEST or 1e-9 < abs(seconds) < 1e-6:
                 yield node.lineno, f"{ast.unparse(node)} lasts {seconds:g} s: 5 s are Duration(seconds=5)"
+
+
+def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
+    """Find the nanoseconds within a second compared with a whole second or more, which they never reach."""
+    numbers = named_numbers(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+            continue
+        limit = number(node.comparators[0], numbers)
+        within = last_name(node.left) == "nanosec" or ast.unparse(node.left).endswith("seconds_nanoseconds()[1]")
+        if within and limit is not None and limit >= 1e9:
+            yield (
+                node.lineno,
+                f"{ast.unparse(node)[:70]}: these are the nanoseconds within the current second, always less than "
+                "1e9: the whole time is sec + nanosec / 1e9, or Time.nanoseconds",
+            )
+
+
+def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
+    """Find a Time that is asked whether it equals a number, which it never does."""
+    numbers, values = named_numbers(tree), _values(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+            continue
+        code = ast.unparse(node.left)
+        now = code.endswith("get_clock().now()") or [
+            ast.unparse(each).endswith("get_clock().now()") for each in values.get(code, [])
+        ] == [True]
+        if now and number(node.comparators[0], numbers) is not None:
+            yield (
+                node.lineno,
+                f"{ast.unparse(node)[:70]}: {code} is a Time and never equal to a number: the seconds that have passed "
+                "are (now - start).nanoseconds / 1e9, and >= holds from a moment on",
+            )
 
 
 def negative_times(tree: ast.AST) -> Iterator[Place]:
@@ -233,4 +267,4 @@ def _part(node: ast.expr, parts: Mapping[str, str]) -> str:
     return parts.get(name, name.rpartition(".")[2])
 
 
-LOOKS = (wrong_units, negative_times, wrong_fractions)
+LOOKS = (wrong_units, negative_times, wrong_fractions, parts_of_a_second, times_as_numbers)

@@ -102,22 +102,39 @@ def cancelled_at_once(tree: ast.AST) -> Iterator[Place]:
 
 
 def never_true(tree: ast.AST) -> Iterator[Place]:
-    """Find `if self.x:` where `self.x` begins as False, None or 0 and only the block below changes it."""
+    """Find `if self.x:` where `self.x` begins as False, None or 0 and only the block below changes it.
+
+    `if not self.x: return` keeps the lines behind it back in the same way.
+    """
     for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
         begins = _first_values(owner)
-        for node in ast.walk(owner):
+        for node, behind in ((each, block[i + 1 :]) for block in blocks(owner) for i, each in enumerate(block)):
             if not isinstance(node, ast.If):
                 continue
-            name = ast.unparse(node.test)
-            inside = {id(each) for statement in node.body for each in ast.walk(statement)}
+            name, kept, where = _kept_back(node, behind)
+            inside = {id(each) for statement in kept for each in ast.walk(statement)}
             changed = [each for each in ast.walk(owner) if _changes(each, name)]
             others = [each for each in changed if id(each) not in inside]
-            if name in begins and not begins[name] and len(others) == 1 and len(changed) > 1:
-                yield (
-                    node.lineno,
-                    f"what stands below  if {name}:  never runs: {name} is {begins[name]} from the start, and only "
-                    "these lines change it",
-                )
+            outside = [each for each in ast.walk(tree) if _changes(each, name.removeprefix("self"))]
+            if name not in begins or begins[name] or len(others) != 1 or not len(others) < len(changed) == len(outside):
+                continue
+            yield (
+                node.lineno,
+                f"what stands {where} never runs: {name} is {begins[name]} from the start, and only these lines change "
+                "it",
+            )
+
+
+def _kept_back(node: ast.If, behind: list[ast.stmt]) -> tuple[str, list[ast.stmt], str]:
+    """Return what a condition asks for, the statements that need it, and where they stand."""
+    test, leaves = node.test, isinstance(node.body[-1], ast.Return | ast.Continue)
+    if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not) and leaves and not node.orelse:
+        inner = [each for statement in node.body for each in ast.walk(statement)]
+        name = ast.unparse(test.operand)
+        if not any(_changes(each, name) for each in inner):
+            return name, behind, f"behind  if {ast.unparse(test)}: {ast.unparse(node.body[-1])}"
+    name = ast.unparse(test)
+    return name, node.body, f"below  if {name}: "
 
 
 def _first_values(owner: ast.ClassDef) -> dict[str, object]:

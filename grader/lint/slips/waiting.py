@@ -160,4 +160,16 @@ def _is_call(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)
 
 
-LOOKS = (rates, loops_before_spin, executors, other_node, shut_down_first, sleeps_between_spins)
+def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
+    """Find an executor that gets nodes in a file where nothing spins."""
+    spins = {name for name in called(tree) if name.startswith("spin")}
+    for call, name in calls(tree):
+        if name == "add_node" and isinstance(call.func, ast.Attribute) and not spins:
+            executor = ast.unparse(call.func.value)
+            yield (
+                call.lineno,
+                f"{executor} gets a node here, but nothing lets it work: {executor}.spin() is missing behind it",
+            )
+
+
+LOOKS = (executors_never_spun, rates, loops_before_spin, executors, other_node, shut_down_first, sleeps_between_spins)

@@ -14,13 +14,14 @@ No other bridge may publish the messages of another topic to the same destinatio
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import WAYS, Bridged, bridges
-from gz_course.grader.score.launched import by_python, deaths, logged_error, looked_elsewhere
+from gz_course.grader.score.launched import by_python, deaths, kept_back, logged_error, looked_elsewhere
 from gz_course.sim.did_you_mean import nearest_name
 
 KEYS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction")
@@ -60,7 +61,8 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
             return Finding(False, expected, measured, explanation=why)
         said = logged_error(recording, "parameter_bridge")
         measured = _not_there(wanted, made) + (f"; parameter_bridge said: {said}" if said else "")
-        return Finding(False, expected, measured, explanation=looked_elsewhere(said))
+        why = looked_elsewhere(said) or ("" if made or said else kept_back(recording, "bridges_made"))
+        return Finding(False, expected, measured, explanation=why)
     if measured := by_python(recording, "parameter_bridge"):
         return Finding(False, expected, measured)
     faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]
@@ -109,6 +111,10 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
         carried = (gz[bridge.gz_topic].get("types") or [""])[0]
         what, other = (CONTENTS.get(name.rpartition(".")[2], "") for name in (carried, wanted["gz_type"]))
         said = f": it carries {what}, and {bridge.ros_topic} is to carry {other}" if what and other != what else ""
+        model, mine = _model(bridge.gz_topic), _model(wanted["gz_topic"])
+        said = said or (
+            f": it is that of the model {model}, not of {mine}" if model and mine not in ("", model) else ""
+        )
         return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}{said}"
     if bridge.gz_topic.endswith((",", ";")):
         end = bridge.gz_topic[-1]
@@ -117,6 +123,12 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     typo = "it is nearly right, look at its spelling: " if near else ""
     name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""
     return f"nobody in Gazebo {does} {bridge.gz_topic}{name}; {typo}gz topic -l lists the topics there are"
+
+
+def _model(topic: str) -> str:
+    """Return the model whose name is in the name of a Gazebo topic; empty if none is."""
+    match = re.match(r"/model/([^/]+)/", topic)
+    return match[1] if match else ""
 
 
 def _why(wanted: dict[str, str]) -> str:

@@ -42,5 +42,17 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
     if node not in recording.facts().get("nodes", [node]):
         return Finding(False, expected, f"{node} was no longer in the ROS graph when the launch was interrupted")
     if not any(each["node"] == node and each["topic"] == "/clock" for each in endpoints):
-        return Finding(False, expected, f"{node} ran without use_sim_time: it does not follow /clock")
+        measured = f"{node} ran without use_sim_time: it does not follow /clock"
+        return Finding(False, expected, measured, explanation=_without(recording, program))
     return Finding(True, expected, "so it was")
+
+
+def _without(recording: Recording, program: str) -> str:
+    """Return which action starts the program without use_sim_time, and which has it instead; empty if unknown."""
+    for place in recording.facts().get("programs", []):
+        if place["program"] != program or place["sim_time"]:
+            continue
+        other = place["executable"] or "another program"
+        given = f"; line {place['elsewhere']} gives it to {other}" if place["elsewhere"] else ""
+        return f"{place['file']}, line {place['line']}: the command of {program} does not hold use_sim_time{given}"
+    return ""

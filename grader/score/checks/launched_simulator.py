@@ -8,7 +8,16 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import by_python, complaint, launch_facts, ran, simulator_fault, started
+from gz_course.grader.score.launched import (
+    by_python,
+    complaint,
+    kept_back,
+    launch_facts,
+    ran,
+    several_simulators,
+    simulator_fault,
+    started,
+)
 
 
 @check_kind("launched_simulator")
@@ -26,12 +35,12 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
             why = "a Command in it (such as xacro), or its own Python, takes far too long or never ends"
             return Finding(False, expected, measured, explanation=why)
         measured = f"gz sim said: {said}" if said else "no simulator was started"
-        return Finding(False, expected, measured, explanation=simulator_fault(said, recording))
+        why = simulator_fault(said, recording) if said else kept_back(recording, "simulators_made")
+        return Finding(False, expected, measured, explanation=why)
     if len(running) > 1:
         worlds = ", ".join(each["world"] for each in running)
-        return Finding(
-            False, expected, f"{len(running)} simulators were started ({worlds}); each publishes its own time"
-        )
+        measured = f"{len(running)} simulators were started ({worlds}); each publishes its own time"
+        return Finding(False, expected, measured, explanation=several_simulators(recording))
     if measured := by_python(recording, "gz"):
         return Finding(False, expected, measured)
     if not facts["simulator_at_end"]:

@@ -21,6 +21,14 @@ from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import texts as texts_of
 from gz_course.grader.score.explanations.texts import difference, too_many, wrong_moment
+from gz_course.grader.score.explanations.too_early_or_late import (
+    added_up,
+    answers_itself,
+    counted_late,
+    counted_too_far,
+    sent_again,
+    sent_too_early,
+)
 from gz_course.grader.score.steps import told
 
 LONGEST_QUOTE = 60  # characters of a message's text that are quoted
@@ -63,9 +71,17 @@ def messages(recording: Recording, parameters: Table) -> Finding:
     if not passed and says is not None:
         why = next((said for text in texts if text is not None and (said := difference(text, says))), "")
     elif not passed and window is not None:
-        why = wrong_moment(times, (window[0], window[1]))
+        asked = (window[0], window[1])
+        why = counted_late(recording, times, asked) or added_up(recording, times, asked) or wrong_moment(times, asked)
     elif not passed and counts.sum() > most:
-        why = too_many(times, recording.ended_s)
+        why = (
+            counted_too_far(recording, times)
+            or sent_again(recording)
+            or answers_itself(recording, f"/{topic}", times)
+            or too_many(times, recording.ended_s)
+        )
+    elif not passed and sent > most:
+        why = sent_too_early(recording)
     return Finding(passed, expected, measured, round(at, 3), timing=window is not None, explanation=why)
 
 

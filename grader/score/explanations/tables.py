@@ -98,10 +98,24 @@ def names_below_the_model(pairs: Pairs, gz_topics: Container[str]) -> str:
     return ""
 
 
+def parts_of_gazebo(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
+    """Recognise sensors and systems of Gazebo in place of the node that publishes what comes from there."""
+    nodes = {node for _, link in pairs for node in link.publisher}
+    wrong = [(row, link) for row, link in pairs if row["publisher"].lstrip("/") not in link.publisher]
+    names = {row["publisher"].lstrip("/") for row, _ in wrong}
+    if len(names) < LEAST or names & nodes or any(link.direction != "GZ_TO_ROS" for _, link in wrong):
+        return ""
+    return (
+        f"line {wrong[0][0]['line']}: {wrong[0][0]['publisher']} and the like are parts of Gazebo and no nodes of ROS: "
+        "all that comes from there is published in ROS by the node that carries it across"
+    )
+
+
 LOOKS: dict[str, tuple[Callable[[Pairs, Sequence[Bridged]], str], ...]] = {
     "direction": (reversed_directions, one_direction, configured_directions),
     "gz_type": (names_of_ros_types,),
     "ros_type": (names_of_gz_types,),
+    "publisher": (parts_of_gazebo,),
 }
 
 

@@ -47,6 +47,12 @@ def difference(said: str, wanted: str) -> str:
     return ""
 
 
+def asked_for(window: tuple[float, float]) -> float:
+    """Return the time [s] that a task asks for, given the window around it."""
+    start, end = window
+    return 1.0 if start <= 1.0 <= end else (start + end) / 2
+
+
 def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
     """Return why messages missed their window; empty if the time tells nothing."""
     if not len(times):
@@ -54,7 +60,7 @@ def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
     first, (start, end) = float(times[0]), window
     if start <= first <= end:
         return ""
-    middle = 1.0 if start <= 1.0 <= end else (start + end) / 2
+    middle = asked_for(window)
     for factor, words in ((2, "twice"), (3, "three times"), (0.5, "half"), (0.1, "a tenth of"), (10, "ten times")):
         if abs(first - factor * middle) <= 0.06 * factor * middle:
             return f"the message came after {first:.2f} s, {words} the {middle:g} s that are asked for"

@@ -10,9 +10,9 @@ from gz_course.grader.submission.intake import take_in
 
 
 def suspicious(facts):
-    """Return the facts without those that every file has: where it makes what it sends, and its conditions."""
+    """Return the facts without those that every file has: where it makes what it sends, conditions and delays."""
     assert "origins" in facts
-    return {name: places for name, places in facts.items() if name not in ("origins", "conditions")}
+    return {name: places for name, places in facts.items() if name not in ("origins", "conditions", "delays")}
 
 
 def test_suspicious_places_of_the_file_become_facts(root, tmp_path):

@@ -24,6 +24,14 @@ def test_the_place_is_told(record):
     assert "time.sleep() waits by the wall clock" in clock_fault(record(facts=sleeps), [LATE])
 
 
+def test_a_sleep_that_an_explanation_names_is_not_blamed_again(record):
+    sleeps = {"wall_clock": [ASKED["wall_clock"][0] | {"call": "time.sleep()", "waits": True}]}
+    explained = Finding(False, "so", "not so", timing=True, explanation="node.py, line 7: the sleep takes 2 s")
+    assert clock_fault(record(facts=sleeps), [explained]) == ""
+    other = Finding(False, "so", "not so", timing=True, explanation="node.py, line 77: the sleep takes 2 s")
+    assert "line 7: time.sleep()" in clock_fault(record(facts=sleeps), [other])
+
+
 @pytest.mark.parametrize(
     "finding",
     [

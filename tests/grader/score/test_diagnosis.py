@@ -186,6 +186,10 @@ def test_the_topics_every_node_has_are_not_taken_for_the_students(told):
     assert publishers(told, *own) == f"Your node has no publisher on /cmd_vel ({TWIST})."
 
 
+def test_a_subscription_in_place_of_a_publisher(told):
+    assert "but a subscription, which listens" in publishers(told, endpoint("/cmd_vel", TWIST, kind="subscription"))
+
+
 @pytest.mark.parametrize(
     ("topic", "node", "why"),
     [

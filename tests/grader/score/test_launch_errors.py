@@ -15,6 +15,8 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("Couldn't parse remap rule: '-r __ns:=/robot{number}'. Error: Expected", "names have no braces"),
         ("Couldn't parse parameter override rule: '-p use_sim_time=true'. Error:", "NAME:=VALUE, with :="),
         ("launch configuration 'word' does not exist", "declares word"),
+        ("b.launch.py:3: invalid condition expression: 'paused'; true, false, 1 or 0 is expected", "not its name in"),
+        ("AttributeError: 'LaunchConfiguration' object has no attribute 'endswith'", "is no text and has no endswith"),
         ("Unknown substitution command [wheel_radius]. Valid commands are ['find']", "in braces, ${wheel_radius}"),
         ("the command 'xacro robot.urdf.xacro' failed: error: name 'radius' is not defined ", "xacro:property above"),
         (

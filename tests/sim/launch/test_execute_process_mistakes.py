@@ -29,6 +29,7 @@ def test_what_cannot_be_started_fails_alone(run, tmp_path):
     mistakes = [
         ({"cmd": ["no-such-program"]}, "there is no program 'no-such-program' to be started"),
         ({"cmd": ["slep", "1"]}, "there is no program 'slep' to be started; did you mean 'sleep'?"),
+        ({"cmd": [f"{tmp_path}/text/below"]}, f"there is no program '{tmp_path}/text/below' to be started"),
         ({"cmd": ["true"], "cwd": "/no/such/folder"}, "in the folder '/no/such/folder', which does not exist"),
         ({"cmd": [f"{tmp_path}/text"]}, "not executable"),
         ({"cmd": [f"{tmp_path}/program"]}, "its first line must be #!"),

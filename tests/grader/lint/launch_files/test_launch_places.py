@@ -117,6 +117,16 @@ def test_a_right_file_has_none():
         ('"-r", world], condition=UnlessCondition', '"-r", world], condition=IfCondition', "UnlessCondition is the"),
         ('"--ros-args", "-p", "use', '"--ros-args -p use', "is one word here"),
         ('"-s", "-r"', '"-s -r"', "'-s', '-r'"),
+        ('sys.executable, str(HERE / "watch.py"), "--r', '["python3", "a.py", "-v"], "--r', "is one word"),
+        ("use_sim_time:=true", "use_sim_time:=false", "turns simulated time off"),
+        ('"-s", world]', '"-s", "$world"]', "$world is a variable of a shell"),
+        ('"-s", world]', '"-s", "$HOME"]', ""),
+        (
+            "bridge = Node(",
+            'bridge = ExecuteProcess(cmd=["parameter_bridge", "b.yaml"])\n    bridge = Node(',
+            "arguments of parameter_bridge are topics",
+        ),
+        ('"--ros-args", "-p", ', '" ".join(["--ros-args", "-p"]), ', "join() makes a single word of several"),
         ('str(HERE / "watch.py"), "--ros-args", ', 'f"{HERE}/watch.py --ros-args", ', "file name and --ros-args"),
         ('"--ros-args", "-p", ', '"-p", ', "--ros-args is missing before"),
         ('"--ros-args", "-p", ', '*command, "-p", ', ""),
@@ -135,6 +145,13 @@ def test_a_right_file_has_none():
             "],\n    )\n    stands = DeclareLaunchArgument('use_sim_time')",
             "is declared, but nothing reads it",
         ),
+        (
+            ', "--ros-args", "-p", "use_sim_time:=true"],\n    )',
+            "],\n        additional_env={'use_sim_time': 'true'},\n    )",
+            "and no environment variable",
+        ),
+        ('parameters=[{"config_file": str(HERE / "bridge.yaml")}]', "arguments=[HERE / 'bridge.yaml']", "are topics"),
+        ('parameters=[{"config_file": str(HERE / "bridge.yaml")}]', "arguments=['/clock@a/msg/B[gz.msgs.C']", ""),
     ],
 )  # fmt: skip
 def test_a_mistake_is_named(old, new, words):
@@ -192,3 +209,88 @@ def test_remappings_are_listed_with_the_namespace_of_their_node():
         {"line": 2, "namespace": "arm", "from": "wall", "to": "/wall"},
         {"line": 2, "namespace": "arm", "from": "out", "to": "x"},
     ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "conditions"),
+    [
+        ("world", "world", ["IfCondition(paused)", "UnlessCondition(paused)"]),
+        (", condition=UnlessCondition(paused)", "", ["IfCondition(paused)", ""]),
+        ("    runs =", "    if world:\n        runs =", ["IfCondition(paused)"]),
+        ("stands, runs,", "GroupAction([stands]), runs,", ["IfCondition(paused)", "UnlessCondition(paused)"]),
+    ],
+)
+def test_each_simulator_has_its_condition(old, new, conditions):
+    found = launch_places(RIGHT.replace(old, new).encode())["simulators_made"]
+    assert [each["condition"] for each in found] == conditions
+
+
+def test_the_condition_of_a_group_is_that_of_its_simulator():
+    inside = RIGHT.replace("stands = ExecuteProcess(", "stands = GroupAction(condition=c, actions=[ExecuteProcess(")
+    inside = inside.replace(", condition=IfCondition(paused))", ")])")
+    assert launch_places(inside.encode())["simulators_made"][0]["condition"] == "c"
+
+
+def test_a_name_stands_for_its_words():
+    named = RIGHT.replace('"--ros-args", "-p", "use_sim_time:=true"', "TIME").replace(
+        "HERE =", 'TIME = "--ros-args -p use_sim_time:=true"\nHERE ='
+    )
+    assert "'--ros-args -p use_sim_time:=true' is one word here" in slips(named)[0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sim_time", "elsewhere"),
+    [
+        ("world", "world", True, 0),
+        (', "--ros-args", "-p", "use_sim_time:=true"', "", False, 0),
+        (', "--ros-args", "-p", "use_sim_time:=true"', ", *WORDS", True, 0),
+    ],
+)
+def test_each_program_says_whether_it_mentions_simulated_time(old, new, sim_time, elsewhere):
+    (place,) = launch_places(RIGHT.replace(old, new).encode())["programs"]
+    assert (place["program"], place["sim_time"], place["elsewhere"]) == ("watch.py", sim_time, elsewhere)
+
+
+def test_simulated_time_for_another_program_is_told():
+    wrong = RIGHT.replace(', "--ros-args", "-p", "use_sim_time:=true"', "").replace(
+        '"config_file": ', '"use_sim_time": True, "config_file": '
+    )
+    (place,) = launch_places(wrong.encode())["programs"]
+    assert (place["sim_time"], place["executable"]) == (False, "parameter_bridge") and place["elsewhere"]
+
+
+def test_the_default_of_a_configuration_that_nothing_declares_counts():
+    text = RIGHT.replace('LaunchConfiguration("paused")\n', 'LaunchConfiguration("paused", default="true")\n')
+    assert [each["default"] for each in launch_places(text.encode())["declared"]] == ["empty.sdf", "false"]
+    undeclared = text.replace('        DeclareLaunchArgument("paused", default_value="false"),\n', "")
+    assert [each["default"] for each in launch_places(undeclared.encode())["declared"]] == ["empty.sdf", "true"]
+
+
+def test_a_bridge_has_its_condition():
+    assert [each["condition"] for each in launch_places(RIGHT.encode())["bridges_made"]] == [""]
+    kept = RIGHT.replace('executable="parameter_bridge",', 'executable="parameter_bridge", condition=IfCondition(a),')
+    assert [each["condition"] for each in launch_places(kept.encode())["bridges_made"]] == ["IfCondition(a)"]
+
+
+@pytest.mark.parametrize(
+    ("expression", "named"),
+    [
+        ("[\"'-r' if '\", paused, \"' else ''\"]", True),
+        ('["not \'", paused, "\'"]', True),
+        ("[\"'-r' if '\", paused, \"' == 'true' else ''\"]", False),
+        ("[\"'\", world, \"'.removesuffix('.sdf')\"]", False),
+    ],
+)
+def test_a_text_in_an_expression_is_no_truth(expression, named):
+    found = slips(RIGHT.replace('"-r", world', f"PythonExpression({expression}), world"))
+    assert any("whether a text in quotes is true" in each for each in found) == named
+
+
+@pytest.mark.parametrize(
+    ("parameters", "sim_time"), [("[HERE / 'watch.yaml']", True), ("[{'speed': 1.0}]", False), ("[]", False)]
+)
+def test_a_parameter_file_may_hold_simulated_time(parameters, sim_time):
+    begin, end = RIGHT.index("watch = ExecuteProcess("), RIGHT.index("after = Register")
+    node = f"watch = Node(executable=str(HERE / 'watch.py'), parameters={parameters})\n    "
+    (place,) = launch_places((RIGHT[:begin] + node + RIGHT[end:]).encode())["programs"]
+    assert place["sim_time"] == sim_time

@@ -15,6 +15,9 @@ WRONG = {
     ),
     "self.t is not exactly 1: adding 0.1 again and again": ("self.t = 0", "self.t += 0.1", "if self.t % 1.0 == 0:"),
     "adding 0.3 again and again gives 0.8999999999999999, then 1.2": ("t = 0", "t += 0.3", "while t != 1:"),
+    # time_units.py
+    "always less than 1e9": ("now = self.get_clock().now().to_msg()", "if now.nanosec >= 1e9:", "    go()"),
+    "is a Time and never equal to a number": ("now = self.get_clock().now()", "if now == 1.0:", "    go()"),
     # sorted_rays.py
     "i is a place in sorted ranges": (
         "for i, r in enumerate(sorted(scan.ranges)):", "    a = i * scan.angle_increment"

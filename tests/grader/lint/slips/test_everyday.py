@@ -129,3 +129,16 @@ def test_counters_beside_a_clock_and_in_loops_are_no_fault():
 @pytest.mark.parametrize("text", [b"", b"def", b"\x00", b"(" * 5000])
 def test_what_is_not_python_has_none(text):
     assert slips(text) == [] and time_reckoning(text) == []
+
+
+@pytest.mark.parametrize(("seconds", "named"), [(1000, True), (1.0, False)])
+def test_a_sleep_of_minutes_before_publish_is_named(seconds, named):
+    text = f"import time\n\np = node.create_publisher(String, '/a', 10)\ntime.sleep({seconds})\np.publish(a)"
+    found = [place["line"] for place in slips(text.encode()) if "takes seconds" in place["said"]]
+    assert found == ([4] if named else [])
+
+
+def test_an_executor_that_nothing_spins_is_named():
+    text = "executor = SingleThreadedExecutor()\nexecutor.add_node(node)\n"
+    assert [place["line"] for place in slips(text.encode()) if "executor.spin() is missing" in place["said"]] == [2]
+    assert not slips(f"{text}executor.spin()\n".encode())

@@ -210,3 +210,11 @@ def test_another_bridge_that_keeps_so_few_is_named(record):
     table = Table({"ros_topic": "/scan", "depth": [1, 1], "at_least": 5}, "check 'it'")
     finding = bridge_qos(record(facts={"bridges": [SCAN, other]}), table)
     assert finding.explanation == "bridge.yaml, line 6: /image keeps so few; asked is /scan"
+
+
+def test_the_topic_of_another_model_is_told_by_its_name(record):
+    other = {"types": ["gz.msgs.Twist"], "publishers": [], "subscribers": ["gz sim"]}
+    facts = {"bridges": [COMMAND | {"gz_topic": "/model/other/cmd_vel"}], "gz_topics": {"/model/other/cmd_vel": other}}
+    wanted = {key: COMMAND[key] for key in KEYS} | {"at_least": 10}
+    finding = bridged(record(facts=facts), Table(wanted, "check 'it'", "parameter"))
+    assert finding.measured.endswith("belongs to /cmd_vel: it is that of the model other, not of robot")

@@ -10,10 +10,12 @@ from gz_course.grader.score.check import check_kinds
 from gz_course.grader.score.diagnosis import diagnose, outcome_of
 from gz_course.grader.score.launched import (
     deaths,
+    kept_back,
     launch_fault,
     launch_slips,
     looked_elsewhere,
     not_started,
+    several_simulators,
     simulator_fault,
 )
 
@@ -79,6 +81,25 @@ def test_a_good_launch_passes(find, kind):
 def test_no_simulator_or_too_many(find, changes, measured):
     finding = find("simulator", **changes)
     assert (finding.passed, finding.measured) == (False, measured)
+
+
+@pytest.mark.parametrize(
+    ("conditions", "words"),
+    [
+        (
+            ["If(p)", ""],
+            "b.py, line 2: this simulator has no condition, so it starts in any case, beside that of line 1",
+        ),
+        (["", ""], "b.py, line 2: a second simulator is started here"),
+        (["If(p)", "If(p)"], "b.py, line 2: this simulator has the same condition"),
+        (["If(p)", "Unless(p)"], ""),
+        (["If(p)"], ""),
+    ],
+)
+def test_the_simulator_that_nothing_keeps_back_is_named(record, conditions, words):
+    made = [{"file": "b.py", "line": i, "condition": each} for i, each in enumerate(conditions, 1)]
+    said = several_simulators(record(facts={"simulators_made": made}))
+    assert said.startswith(words) and bool(said) == bool(words)
 
 
 @pytest.mark.parametrize(("arguments", "passed"), [({}, True), ({"world": "a.sdf"}, True), ({"world": "b.sdf"}, False)])
@@ -185,6 +206,8 @@ def test_an_error_of_a_node_has_its_place_and_its_meaning(find, record):
             "bringup.launch.py is the launch file itself, not a folder",
         ),
         ("bridge.yaml: cannot read: No such file or directory", "bridge.yaml was looked for in the folder"),
+        ("/bridge.yaml: cannot read: No such file or directory", "bridge.yaml was looked for in the folder /, where"),
+        ("can't open file '/a/b/watch.py': [Errno 2] No such file or directory", "in the folder /a/b/, where it does"),
         ("no bridge", ""),
     ],
 )
@@ -291,3 +314,47 @@ def test_the_fault_of_a_launch_comes_with_file_and_line(record):
 def test_a_launch_without_fault_has_none(record):
     assert launch_fault(record(facts={"launch": GOOD})) == diagnose(record(facts={"launch": GOOD}), LOOKS) == ""
     assert launch_fault(record()) == ""
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, "b.py, line 9: the command of stopwatch.py does not hold use_sim_time; line 5 gives it to bridge"),
+        ({"elsewhere": 0, "executable": ""}, "b.py, line 9: the command of stopwatch.py does not hold use_sim_time"),
+        ({"sim_time": True}, ""),
+        ({"program": "other.py"}, ""),
+    ],
+)
+def test_the_command_without_simulated_time_is_named(record, changes, words):
+    place = {"file": "b.py", "line": 9, "program": "stopwatch.py", "sim_time": False}
+    place |= {"elsewhere": 5, "executable": "bridge"}
+    facts = {"launch": GOOD, "endpoints": CLOCKED[1:], "programs": [place | changes]}
+    kind = check_kinds()["launched_node"]
+    assert kind(record(facts=facts), Table(PARAMETERS["node"], "check 'it'", "parameter")).explanation == words
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ("{world}", "'{world}' is a text, with its braces"),
+        ("$(var world)", "Python writes LaunchConfiguration('world')"),
+        ("$(arg world)", "XML and YAML write it so"),
+    ],
+)
+def test_a_world_that_is_a_pattern(record, given, words):
+    assert words in simulator_fault(f"world file '{given}' was not found as a path", record())
+
+
+@pytest.mark.parametrize(
+    ("conditions", "words"),
+    [
+        (["If(p)"], "b.py, line 1: this starts only with condition=If(p); nothing else starts one"),
+        (["If(p)", "If(q)"], "and that of line 2 only with condition=If(q)"),
+        (["If(p)", ""], ""),
+        ([], ""),
+    ],
+)
+def test_the_condition_that_keeps_everything_back_is_named(record, conditions, words):
+    made = [{"file": "b.py", "line": i, "condition": each} for i, each in enumerate(conditions, 1)]
+    said = kept_back(record(facts={"bridges_made": made}), "bridges_made")
+    assert words in said and bool(said) == bool(words)
