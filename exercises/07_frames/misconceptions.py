@@ -26,7 +26,7 @@ def of_other_headings(turn, hits, given):
         f"turned by q.z as if it were an angle: {right}": lambda z, w: z,
         f"turned by q.w as if it were an angle: {right}": lambda z, w: w,
         f"turned by 2 * q.z: {right}": lambda z, w: 2 * z,
-        f"turned by half the heading: {right}": np.arctan2,
+        f"turned by half the heading: {right}; a quaternion turns a vector as q * v * conjugate(q)": np.arctan2,
         f"turned by 2 * q.z * q.w, which is about the sine of the heading, not the heading: {right}": lambda z, w: (
             2 * z * w
         ),
@@ -87,6 +87,9 @@ def of_other_rays(found):
     yield "those with sin and cos exchanged: x is range * cos(angle)", polar(distance, np.pi / 2 - angle)
     yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
     yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
+    words = "those of an angle that grows by more than angle_increment from ray to ray: angle_min counts once only"
+    yield words, polar(distance, found.rays * (first + step))
+    yield words, polar(distance, found.rays * first)
     yield "those of a ray's number as its angle: angle_increment is missing", polar(distance, first + found.rays)
     numbers = np.radians(found.rays)
     yield "those of a ray's number as its angle in degrees: use angle_min and angle_increment", polar(distance, numbers)
@@ -133,10 +136,11 @@ def of_other_rays(found):
     yield "the middle of all hits, not the nearest", np.array([np.nanmean(points, 0) for points in every])
 
 
-def apart(points, truth, seen, hits):
+def apart(points, truth, seen, hits, step):
     """Return in what wrong points are right, as the end of "your points are ..."; empty if in nothing.
 
-    `points` and `truth` are in odom, `seen` and `hits` the same in the scanner's frame, all (n, 3) [m].
+    `points` and `truth` are in odom, `seen` and `hits` the same in the scanner's frame, all (n, 3) [m]; `step` is the
+    angle between two rays [rad].
     """
     there = ~np.isnan(points[:, 0])
     points, truth, seen, hits = points[there], truth[there], seen[there], hits[there]
@@ -151,7 +155,16 @@ def apart(points, truth, seen, hits):
     if np.mean(np.abs(np.linalg.norm(seen, axis=1) - np.linalg.norm(hits, axis=1)) <= CLOSE) >= SHARE:
         usual = float(np.median(angles))
         if np.mean(np.abs(angles - usual) <= SAME_WAY) >= SHARE:
-            return f"as far from the scanner as the hits, in directions that are {np.degrees(usual):.0f} degrees off"
+            rays, degrees = usual / step, np.degrees(usual)
+            whole = abs(rays - round(rays)) < 0.1 and abs(rays) >= 1 and abs(degrees - 45 * round(degrees / 45)) > 0.5
+            why = (
+                f", {abs(round(rays))} rays: the number of a ray is counted from the first one of ranges, also where "
+                "only a part of them is looked at"
+            )
+            return (
+                f"as far from the scanner as the hits, in directions that are {degrees:.0f} degrees off"
+                f"{why if whole else ''}"
+            )
         return "as far from the scanner as the hits, in other directions: the angle, or a rotation, is wrong"
     if np.mean(np.abs(angles) <= SAME_WAY) >= SHARE and "z" in axes:
         usual = float(np.median(factors))

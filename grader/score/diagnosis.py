@@ -270,6 +270,12 @@ def _unheard(facts: dict[str, Any]) -> str:
     heard = [e["topic"] for e in _of(facts, "subscription") if e["topic"] in facts.get("offered", {})]
     if not heard:
         return ""
+    for place in facts.get("swallowed_errors", []):
+        return (
+            f", although it hears {heard[0]}: line {place['line']} catches every error and shows none, so a mistake in "
+            f"lines {place['first']} to {place['last']} stays unseen; catch only what you expect, such as "
+            "TransformException, and Python shows the error"
+        )
     return (
         f", although it hears {heard[0]}: a condition before publish() never holds, or an error is caught, such as "
         "that of a transform between frames that do not exist"

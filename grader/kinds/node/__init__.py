@@ -17,6 +17,7 @@ from gz_course.grader.lint.slips.message_fields import message_fields
 from gz_course.grader.lint.slips.sequences import silent_log
 from gz_course.grader.lint.slips.transforms import lookups, shared_headers
 from gz_course.grader.lint.suspects import suspects
+from gz_course.grader.lint.swallowed_errors import swallowed_errors
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
@@ -80,6 +81,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "silent_log": silent_log(content),
         "slips": slips(content, exercise.duration, message_fields(heard)),
         "suspects": suspects(content),
+        "swallowed_errors": swallowed_errors(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),
         "whole_numbers": whole_numbers(content, float_fields(heard)),

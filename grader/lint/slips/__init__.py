@@ -31,6 +31,7 @@ from gz_course.grader.lint.slips import (
     transforms,
     unreached,
     waiting,
+    waiting_messages,
 )
 from gz_course.grader.lint.slips.everyday import LONGEST_PERIOD, periods
 from gz_course.grader.lint.slips.message_fields import unknown_fields
@@ -40,7 +41,7 @@ MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, unreached.LOOKS, time_units.LOOKS,
-    no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
+    no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS,
 )  # fmt: skip

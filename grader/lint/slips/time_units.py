@@ -92,6 +92,41 @@ def negative_times(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+def parts_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
+    """Find a sum of `sec` and `nanosec` in which the second has another unit than the first."""
+    numbers = named_numbers(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            whole, part = _factor(one, "sec", numbers), _factor(other, "nanosec", numbers)
+            if whole and part and not math.isclose(part / whole, 1e-9, rel_tol=1e-6):
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:80]}: the two parts have different units, because a nanosecond is 1e-9 s: "
+                    "sec + nanosec * 1e-9 are seconds; Time.from_msg(stamp) takes both",
+                )
+                return
+
+
+def _factor(node: ast.expr, name: str, numbers: Mapping[str, Number]) -> float | None:
+    """Return the number by which a field is multiplied; None if an expression is not that field alone."""
+    match node:
+        case ast.Attribute(attr=attr):
+            return 1.0 if attr == name else None
+        case ast.Call(func=ast.Name(id="int" | "float" | "round"), args=[inner]):
+            return _factor(inner, name, numbers)
+        case ast.BinOp(left=left, op=ast.Mult(), right=right):
+            for one, other in ((left, right), (right, left)):
+                inner_factor, factor = _factor(one, name, numbers), number(other, numbers)
+                if inner_factor and factor:
+                    return inner_factor * factor
+        case ast.BinOp(left=left, op=ast.Div() | ast.FloorDiv(), right=right):
+            inner_factor, factor = _factor(left, name, numbers), number(right, numbers)
+            return inner_factor / factor if inner_factor and factor else None
+    return None
+
+
 def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
     """Return what is assigned to each name and attribute; the results of functions by `name()`."""
     found: dict[str, list[ast.expr]] = {}
@@ -153,4 +188,4 @@ def _common(units: list[float | None]) -> float | None:
     return first if first is not None and all(u is not None and math.isclose(u, first) for u in units) else None
 
 
-LOOKS = (wrong_units, negative_times)
+LOOKS = (wrong_units, negative_times, parts_of_a_stamp)

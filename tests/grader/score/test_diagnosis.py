@@ -295,6 +295,14 @@ def test_what_stands_before_a_publish_that_never_ran(told):
     assert told(conditions=conditions) == ("graded", "")
 
 
+def test_an_error_that_is_caught_without_a_word_is_looked_for_where_nothing_is_published(told):
+    place = {"file": "node.py", "line": 9, "first": 4, "last": 8}
+    heard = endpoint("/lidar/scan", SCAN, "subscription")
+    _, sentence = told(heard, signals={}, swallowed_errors=[place])
+    assert "line 9 catches every error and shows none, so a mistake in lines 4 to 8 stays unseen" in sentence
+    assert told(heard, swallowed_errors=[place]) == ("graded", "")
+
+
 def test_a_message_that_is_kept_for_late_listeners_is_lost_to_those_that_do_not_ask_for_it(record):
     facts = BASE | {"too_early": {"/cmd_vel": 1}}
     for durability, words in (("TRANSIENT_LOCAL", "only for listeners that ask for it"), ("VOLATILE", "")):
