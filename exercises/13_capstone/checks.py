@@ -199,6 +199,9 @@ def free(recording, parameters):
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
         words = DRIVING.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
+        fitting = (each for each, changed in rearranged(marked) if changed[passed].mean() >= FITS > share + 0.2)
+        words = next((f"your walls are right, but of your free cells {each}" for each in fitting), "")
+    if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
         words = DRIVING.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
@@ -310,7 +313,7 @@ def why(recording, said, scan):
     if words := wrong_values(said, fits):
         return words
     if marked.sum() < FEWEST:
-        return "hardly any cell is occupied"
+        return DRIVING.hardly_any(said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]])
     for words, changed in rearranged(marked):
         if fits(changed):
             return words
@@ -319,6 +322,8 @@ def why(recording, said, scan):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
     if words := DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording):
+        return words
+    if words := DRIVING.suspect(recording, "counter", "pose"):
         return words
     wrong = marked & ~solid
     if wrong.sum() < FEWEST:

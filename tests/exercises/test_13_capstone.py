@@ -15,7 +15,7 @@ DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
 NOW = np.arange(0.0, 36.0, 0.2)
 
 
-def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, suspects=()):
+def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, suspects=(), tests=()):
     """A recording as these functions see it."""
     signals = {f"truth/robot/{name}": values for name, values in (("x", x), ("y", y), ("yaw", yaw))}
     signals["truth/robot/distance"] = np.cumsum(np.hypot(np.diff(x, prepend=x[:1]), np.diff(y, prepend=y[:1])))
@@ -24,7 +24,7 @@ def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW,
     return SimpleNamespace(
         signal=lambda name: Signal(times[: len(signals[name])], signals[name]),
         end_ns=36_000_000_000,
-        facts=lambda: {"suspects": list(suspects)},
+        facts=lambda: {"suspects": list(suspects), "before_speeds": list(tests)},
     )
 
 
@@ -56,6 +56,33 @@ def test_why_a_robot_never_drove(commands, words):
 def test_why_a_robot_did_not_see_all(run, words):
     said = DRIVING.slow_or_lost(run)
     assert words in said if words else said == ""
+
+
+def test_the_conditions_before_a_speed_that_is_never_set():
+    tests = [{"line": line, "code": f"if {line}:"} for line in (3, 5, 7)]
+    said = DRIVING.stands(recording(turning=1 + 0 * NOW, tests=tests))
+    assert said.endswith("never held: line 5, `if 5:`; line 7, `if 7:`")
+    sign = {"line": 9, "about": "sign", "said": "the wrong sign"}
+    assert DRIVING.stands(recording(turning=1 + 0 * NOW, suspects=[sign])) == "line 9: the wrong sign"
+
+
+def test_a_robot_that_never_slows_down_to_turn():
+    turning = np.where(NOW % 4 < 2, 1.2, 0.1)
+    fast, slow = (recording(turning=turning, ahead=ahead) for ahead in (0.5 + 0 * NOW, np.where(turning > 1, 0.1, 0.5)))
+    assert "as fast as ever, while it turns with 1.2 rad/s" in DRIVING.drives_while_turning(fast)
+    assert "as fast as ever" in DRIVING.touched(fast, 0.18, 0, (0.0, 0.18))
+    assert DRIVING.drives_while_turning(slow) == DRIVING.drives_while_turning(recording()) == ""
+
+
+def test_a_robot_that_drove_far_and_did_not_see_all_is_looked_up_in_its_file():
+    search = {"line": 9, "about": "search", "said": "runs deep"}
+    assert DRIVING.slow_or_lost(recording(x=0.5 * NOW, ahead=0.5 + 0 * NOW, suspects=[search])) == "line 9: runs deep"
+
+
+def test_maps_that_are_all_the_same():
+    said = np.full((80, 100), -1.0)
+    assert "all 5 maps are the same, all cells are unknown" in DRIVING.hardly_any(said, [said.ravel()] * 5)
+    assert DRIVING.hardly_any(said, [said.ravel()] * 4 + [0 * said.ravel()]) == "hardly any cell is occupied"
 
 
 def test_what_was_touched_ahead_and_beside():

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
-from gz_course.grader.lint.origins import conditions, origins
+from gz_course.grader.lint.origins import before_speeds, conditions, origins
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.message_fields import message_fields
 from gz_course.grader.lint.slips.sequences import silent_log
@@ -74,6 +74,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
+        "before_speeds": before_speeds(content),
         "conditions": conditions(content),
         "origins": origins(content),
         "lookups": lookups(content),

@@ -20,6 +20,7 @@ from gz_course.grader.lint.suspects import (
     patrols,
     pictures,
     rays,
+    ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -34,6 +35,7 @@ LOOKS = (
     *aliases.LOOKS,
     *bearings.LOOKS,
     *feedback.LOOKS,
+    *ways.LOOKS,
 )
 MOST = 12  # suspects kept
 
