@@ -192,7 +192,7 @@ def places(recording, parameters):
         or otherwise_assigned(recording, found, truth, which, missing)
         or explanation(recording, found, truth, which, bad)
         or UNANSWERED["reason"](recording, infinite, int((~missing).sum()), len(which))
-        or UNANSWERED["left_out"](found, near(found.points, truth, TOLERANCE))
+        or UNANSWERED["left_out"](found, near(found.points, truth, TOLERANCE), truth)
     )
     if "nothing was transformed" in why:
         why += UNANSWERED["shared_header"](recording)

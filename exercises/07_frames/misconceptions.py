@@ -87,6 +87,10 @@ def of_other_rays(found):
     yield "those with sin and cos exchanged: x is range * cos(angle)", polar(distance, np.pi / 2 - angle)
     yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
     yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
+    best = np.array([int(np.argmin(distance[: i + 1])) for i in range(len(distance))])
+    words = "the nearest hits of all scans so far: begin the search anew in each scan"
+    for direction in (angle[best], angle, first):
+        yield words, polar(distance[best], direction)
     words = "those of an angle that grows by more than angle_increment from ray to ray: angle_min counts once only"
     yield words, polar(distance, found.rays * (first + step))
     yield words, polar(distance, found.rays * first)
@@ -152,6 +156,13 @@ def apart(points, truth, seen, hits, step):
     axes = [name for name, each in zip(same, (*off.T, off[:, 0] & off[:, 1]), strict=True) if each.mean() >= SHARE]
     if np.mean(np.linalg.norm(points - truth - shift, axis=1) <= CLOSE) >= SHARE:
         return f"all shifted by the same way in odom, ({', '.join(f'{v:.2f}' for v in shift)}) m"
+    own = np.median(seen - hits, 0)
+    if np.mean(np.linalg.norm(seen - hits - own, axis=1) <= CLOSE) >= SHARE:
+        said = ", ".join(f"{v:.2f}" for v in own)
+        return (
+            f"all shifted by the same way in the scanner's frame, ({said}) m: there a hit is at range * cos(angle), "
+            "range * sin(angle), 0, and nothing is added; the transform holds the mount"
+        )
     if np.mean(np.abs(np.linalg.norm(seen, axis=1) - np.linalg.norm(hits, axis=1)) <= CLOSE) >= SHARE:
         usual = float(np.median(angles))
         if np.mean(np.abs(angles - usual) <= SAME_WAY) >= SHARE:

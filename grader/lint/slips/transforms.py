@@ -141,10 +141,19 @@ def _asked_for(tree: ast.Module) -> Iterator[dict[str, Any]]:
     for call, time in _lookups(tree):
         named = [each.value for each in call.keywords if each.arg in ("target_frame", "source_frame")]
         frames = _texts([*call.args[:2], *named], constants)
-        yield {"line": call.lineno, "frames": frames, "gives_up": gives_up and _of_a_stamp(tree, time)}
+        found = {"line": call.lineno, "frames": frames, "gives_up": gives_up and _of_a_stamp(tree, time)}
+        altered = next((text for each in [*call.args[:2], *named] if (text := _altered(each))), "")
+        yield found | ({"altered": altered} if altered else {})
     for call, name in calls(tree):
         if name == "transform" and "buf" in ast.unparse(call.func).lower() and call.args:
             yield {"line": call.lineno, "frames": _texts(call.args[1:2], constants), "gives_up": gives_up}
+
+
+def _altered(node: ast.expr) -> str:
+    """Return an expression that takes a part of a frame_id, more than its first slash; empty for any other."""
+    if isinstance(node, ast.Call | ast.Subscript | ast.BinOp) and ".frame_id" in (text := ast.unparse(node)):
+        return "" if "strip('/')" in text else text[:60]
+    return ""
 
 
 def _texts(nodes: list[ast.expr], constants: dict[str, Any]) -> list[str]:

@@ -67,6 +67,10 @@ def test_frames_that_are_written_down_and_scans_that_are_given_up():
     text = node("frame = 'map'", "p = self.buffer.transform(point, frame)")
     assert lookups(text.encode()) == [{"line": 11, "frames": ["map"], "gives_up": True}]
     assert lookups(b"x = (") == []
+    part = node(f"t = {ASK}").replace("scan.header.frame_id", "scan.header.frame_id.split('/')[-1]")
+    assert lookups(part.encode())[0]["altered"] == "scan.header.frame_id.split('/')[-1]"
+    same = node(f"t = {ASK}").replace("scan.header.frame_id", "scan.header.frame_id.lstrip('/')")
+    assert "altered" not in lookups(same.encode())[0]
 
 
 @pytest.mark.parametrize(
