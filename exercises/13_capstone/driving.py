@@ -33,16 +33,16 @@ def commands(recording):
 
 
 def stands(recording):
-    """Return why a robot never drove, as far as its commands tell; empty if they do not."""
+    """Return why a robot never drove, as far as its commands and its file tell; empty if they do not."""
     ahead, turning = commands(recording)
     if not len(ahead):
         return "no command came on /cmd_vel"
+    tests = [f"line {each['line']}, `{each['code']}`" for each in recording.facts().get("before_speeds", [])]
+    never = f"; one of the conditions before it never held: {'; '.join(tests[-2:])}" if tests else ""
     if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
-        return f"all of its {len(ahead)} commands were 0"
+        return f"all of its {len(ahead)} commands were 0{never}"
     if not np.abs(ahead).max() > 0.01:
         said = suspect(recording, "pose", "counter", "sign", "cell", "heading", "angle", "ray")
-        tests = [f"line {each['line']}, `{each['code']}`" for each in recording.facts().get("before_speeds", [])]
-        never = f"; what stands before it never held: {'; '.join(tests[-2:])}" if tests else ""
         return said or f"linear.x was 0 in every command{never}"
     return ""
 

@@ -62,6 +62,7 @@ def test_the_conditions_before_a_speed_that_is_never_set():
     tests = [{"line": line, "code": f"if {line}:"} for line in (3, 5, 7)]
     said = DRIVING.stands(recording(turning=1 + 0 * NOW, tests=tests))
     assert said.endswith("never held: line 5, `if 5:`; line 7, `if 7:`")
+    assert "commands were 0; one of the conditions before it" in DRIVING.stands(recording(tests=tests))
     sign = {"line": 9, "about": "sign", "said": "the wrong sign"}
     assert DRIVING.stands(recording(turning=1 + 0 * NOW, suspects=[sign])) == "line 9: the wrong sign"
 

@@ -128,6 +128,34 @@ def _in_finally(function: ast.FunctionDef, node: ast.AST) -> bool:
     return any(node in each.finalbody for each in ast.walk(function) if isinstance(each, ast.Try))
 
 
+def kept_when_done(tree: ast.AST) -> Iterator[Place]:
+    """Find `waiting = [one for one in waiting if self.answer(one)]` where answer() is false without one."""
+    false = {
+        each.name
+        for each in functions(tree)
+        if called(each) & ASKED
+        and any(
+            isinstance(handler, ast.ExceptHandler) and ast.unparse(handler.body[-1]) in ("return False", "return None")
+            for handler in ast.walk(each)
+        )
+        and any(isinstance(node, ast.Return) and ast.unparse(node) == "return True" for node in ast.walk(each))
+    }
+    for target, value in assigned(tree):
+        kept = value.value if isinstance(value, ast.Subscript) else value
+        if not isinstance(kept, ast.ListComp) or len(kept.generators) != 1:
+            continue
+        loop = kept.generators[0]
+        if ast.unparse(target) != ast.unparse(loop.iter) or len(loop.ifs) != 1:
+            continue
+        test = loop.ifs[0]
+        if isinstance(test, ast.Call) and last_name(test.func) in false:
+            yield (
+                test.lineno,
+                f"this keeps what {last_name(test.func)}() has answered, where it returns True, and drops what still "
+                f"waits for its transform: if not {ast.unparse(test)}",
+            )
+
+
 def first_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find a list, or an attribute, whose first message is the only one that is asked for and leaves when answered."""
     for kept, line in _asked_alone(tree).items():
@@ -262,4 +290,4 @@ def keyed_by_seconds(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (taken_too_early, emptied, first_for_ever, time_of_another, keyed_by_seconds)
+LOOKS = (taken_too_early, emptied, kept_when_done, first_for_ever, time_of_another, keyed_by_seconds)

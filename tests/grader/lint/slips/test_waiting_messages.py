@@ -113,3 +113,21 @@ def test_a_list_of_limited_length_lets_the_first_go():
     lines = [KEEP, "while self.waiting:", *(f"    {each}" for each in PEEK), f"    if not {CAN}:", "        return",
              "    self.waiting.popleft()"]  # fmt: skip
     assert said(lines, "deque()") and said(lines, "deque(maxlen=5)") == []
+
+
+FILTER = NODE.format(begin="[]", body="        self.waiting = [one for one in self.waiting if {test}]")
+ANSWER = """\
+    def reply(self, one):
+        try:
+            t = self.buffer.lookup_transform("odom", "x", one.header.stamp)
+        except TransformException:
+            return False
+        self.result.publish(t)
+        return True
+"""
+
+
+@pytest.mark.parametrize(("test", "wrong"), [("self.reply(one)", True), ("not self.reply(one)", False)])
+def test_a_filter_keeps_what_still_waits(test, wrong):
+    found = [place["said"] for place in slips((FILTER.replace("{test}", test) + "\n" + ANSWER).encode())]
+    assert any("drops what still waits" in each for each in found) is wrong
