@@ -9,6 +9,7 @@ AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was d
 SLOW = 0.15  # [m/s]
 TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
+PLANNING = "pose", "counter", "sign", "cell", "way", "search"  # suspects in how a way is found and followed
 
 
 def other_origin(x, y, grid):
@@ -55,7 +56,7 @@ def slow_or_lost(recording):
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
-    planning = suspect(recording, "pose", "counter", "sign", "cell", "way", "search")
+    planning = suspect(recording, *PLANNING)
     if turns > TURNS and way < 0.1 * seconds:
         said = (
             planning
@@ -86,7 +87,9 @@ def touched(recording, radius, at, place):
         for signal in (recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw"))
     )
     bearing = np.remainder(np.arctan2(place[1] - y, place[0] - x) - yaw + np.pi, 2 * np.pi) - np.pi
-    if said := suspect(recording, "pose", "counter", "sign", "cell", "way", "search", "ray", "heading", "angle"):
+    if said := suspect(
+        recording, "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
+    ):
         return said
     if said := drives_while_turning(recording):
         return said

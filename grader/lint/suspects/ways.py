@@ -256,6 +256,45 @@ def _of_a_path(value: ast.expr) -> bool:
     return isinstance(value, ast.Subscript) and bool(re.search(r"path|way|route|plan|cells", ast.unparse(value.value)))
 
 
+def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the direction of a place from the origin where that from the robot is meant: no pose is subtracted."""
+    poses = {
+        ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith((".position.x", "p.x"))
+    }
+    makers = {each.name for each in functions(tree) if not any(pose in ast.unparse(each) for pose in poses)}
+    for function in functions(tree) if poses else ():
+        places: dict[str, int] = {}
+        for target, value in assigned(function):
+            made = isinstance(value, ast.Call) and last_name(value.func) in makers and len(value.args) == 1
+            for each in target.elts if isinstance(target, ast.Tuple) and (made or _of_a_path(value)) else ():
+                places[ast.unparse(each)] = value.lineno
+        for call, name in calls(function):
+            texts = [ast.unparse(each) for each in call.args]
+            if name in AIMED and len(texts) == 2 and all(text in places for text in texts):
+                yield (
+                    call.lineno,
+                    "cell",
+                    f"{ast.unparse(call)} is the direction of ({texts[1]}, {texts[0]}) from the origin of the map, "
+                    "not from the robot: subtract the robot's x and y first",
+                )
+
+
+def part_of_a_scan(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop that goes through a part of the rays while it draws a map."""
+    for function in functions(tree):
+        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
+            for node in ast.walk(loop.iter):
+                part = isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) and node.slice.step is None
+                if isinstance(node, ast.Subscript) and part and ast.unparse(node.value).endswith(".ranges"):
+                    yield (
+                        node.lineno,
+                        "part",
+                        f"{ast.unparse(node)[:60]} leaves out a part of the rays: what stands on that side never gets "
+                        "into the map",
+                    )
+
+
 LOOKS = (
-    depth_first, backwards, never_shortened, first_pose, small_counters, turned_the_wrong_way, cells_for_metres,
+    aimed_from_the_origin, part_of_a_scan, depth_first, backwards, never_shortened, first_pose, small_counters,
+    turned_the_wrong_way, cells_for_metres,
 )  # fmt: skip

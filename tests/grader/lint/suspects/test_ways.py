@@ -5,6 +5,10 @@ import pytest
 from gz_course.grader.lint.suspects import suspects
 
 RIGHT = """\
+def middle(cell):
+    return -5 + (cell[0] + 0.5) * 0.1, -4 + (cell[1] + 0.5) * 0.1
+
+
 from collections import deque
 from math import atan2, pi, remainder
 
@@ -76,6 +80,13 @@ SIGN = "remainder(self.heading - goal, 2 * pi)"
             "    def on_odom(self, message):\n        if self.x is not None:\n            return\n",
             "pose",
             "the pose is that of the first message for ever",
+        ),
+        ("atan2(y - self.y, x - self.x)", "atan2(y, x)", "cell", "from the origin of the map, not from the robot"),
+        (
+            "        self.counts[rows",
+            "        for r in scan.ranges[:180]:\n            pass\n        self.counts[rows",
+            "part",
+            "scan.ranges[:180] leaves out a part of the rays",
         ),
         ("remainder(goal - self.heading, 2 * pi)", "goal - self.heading", "wrap", "the long way round"),
     ],
