@@ -156,3 +156,19 @@ def test_walls_that_are_widened():
 )
 def test_an_origin_that_is_something_else(x, y, words):
     assert words in DRIVING.other_origin(x, y, Grid(0.1, 100, 80, -5.0, -4.0))
+
+
+def test_scattered_hits_do_not_explain_the_walls_of_a_map(monkeypatch):
+    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    said = np.full((80, 100), -1.0)
+    said[40, 10:60] = 100
+    wall = np.stack([np.arange(10, 60) / 10 - 4.95, np.full(50, 0.05)], 1)
+    everywhere = np.concatenate([wall, *(wall + np.array([0, 0.4 * row]) for row in range(1, 8))])
+    known = checks["drawn_elsewhere"].__globals__
+    monkeypatch.setitem(known, "grid", lambda *given: (said, 1.0))
+    monkeypatch.setitem(known, "scans", lambda *given: None)
+    monkeypatch.setitem(known, "hits", lambda *given: np.array([[4.0, 3.0]]))
+    recording = SimpleNamespace(arrays=lambda name: (np.zeros(1), []), facts=lambda: {})
+    for points, words in ((wall, "a mistake"), (everywhere, "")):
+        monkeypatch.setitem(known, "misplaced", lambda scan, points=points: [("a mistake", points)])
+        assert checks["drawn_elsewhere"](recording) == words
