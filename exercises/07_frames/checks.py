@@ -188,15 +188,20 @@ def places(recording, parameters):
         return Finding(True, expected, measured)
     first = which[np.flatnonzero(~met)[0]]
     why = (
-        OTHER_HITS["several"](found.number)
+        several(recording, found)
         or otherwise_assigned(recording, found, truth, which, missing)
         or explanation(recording, found, truth, which, bad)
         or UNANSWERED["reason"](recording, infinite, int((~missing).sum()), len(which))
-        or silence(found, truth)
+        or UNANSWERED["left_out"](found, near(found.points, truth, TOLERANCE), truth)
     )
     if "nothing was transformed" in why:
         why += UNANSWERED["shared_header"](recording)
     return Finding(False, expected, measured, round(float(found.arrived[first]), 3), explanation=why)
+
+
+def several(recording, found):
+    stamps = recording.signal(f"{TOPIC}/header/stamp")
+    return OTHER_HITS["several"](found.number, stamps.times, stamps.values)
 
 
 def otherwise_assigned(recording, found, truth, which, missing):
@@ -234,7 +239,9 @@ def explanation(recording, found, truth, which, bad, guess=True):
         return ""
     if not fitting:
         seen = both_frames(recording, found).inverse().of(found.points)
-        apart = MISCONCEPTIONS["apart"](found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong])
+        apart = MISCONCEPTIONS["apart"](
+            found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong], float(found.angles[0, 1])
+        )
         hit = OTHER_HITS["some_hit"](found, wrong, seen)
         fitting = [hit if not apart.startswith("all") and hit else apart]
     return f"your points are {', or '.join(fitting[:2])}" if fitting[0] else ""
@@ -244,21 +251,6 @@ def both_frames(recording, found):
     """Return the poses of the scanner in odom, one for each scan."""
     robot = odom(recording, found.stamps)
     return Frame(np.einsum("nij,njk->nik", robot.turn, found.mount.turn), robot.of(found.mount.place))
-
-
-def silence(found, truth):
-    """Return what is odd about the scans that got no point, if the others are right."""
-    there = ~np.isnan(found.points[:, 0])
-    if not there.any() or not near(found.points, truth, TOLERANCE)[there].all():
-        return ""
-    last = found.stamps[there][-1]
-    if last < 0.6 * found.stamps[-1]:
-        return f"the points stop: the last one is that of the scan at {last:.1f} s"
-    share = f"only {there.sum()} of {len(there)} scans got a point"
-    steps = np.diff(found.stamps[there])
-    if len(steps) > 3 and np.ptp(steps) < 0.02 and steps[0] > 0.15:
-        return f"{share}, one in {steps[0]:.1f} s, as of a timer: every scan needs one"
-    return f"{share}: keep a scan until its transform is there"
 
 
 def predictions(recording, found, truth):
@@ -318,6 +310,10 @@ def predictions(recording, found, truth):
     yield "those of an upright scanner: its rotation is more than a heading, use the quaternion", upright
     yield "those of an upright scanner: its rotation is more than a heading; and z is 0", upright * (1, 1, 0)
     yield "those of the mount in the public world: ask /tf_static, other robots differ", robot.of(written.of(hits))
+    yield (
+        "those of both transforms in the wrong order: the mount leads to the robot, then comes its pose",
+        mount.of(robot.of(hits)),
+    )
     yield "the place of the robot, not of the hit", robot.place
     yield "the place of the scanner, not of the hit", both.place
     yield (
@@ -350,8 +346,8 @@ def predictions(recording, found, truth):
 
 
 def stamps(recording, parameters):
-    """Pass if nearly all scans got a point with their own stamp, and no point has another stamp."""
-    expected = "a point with the stamp of each scan"
+    """Pass if nearly all scans got one point with their own stamp, and no point has another stamp."""
+    expected = "one point with the stamp of each scan"
     sent = values(recording, f"{SCAN}/header/stamp")[1:]
     given = recording.signal(f"{TOPIC}/header/stamp")
     if not len(given):
@@ -364,6 +360,8 @@ def stamps(recording, parameters):
     covered = np.min(np.abs(sent[:, None] - given.values[None, :]), axis=1) <= SAME
     covered &= not other.all()
     measured = f"{covered.sum()} of {len(sent)} scans have a point with their stamp"
+    if other.mean() <= 1 - SHARE and (many := "" if found is None else several(recording, found)):
+        return Finding(False, expected, f"{measured}; {len(given)} points were published", explanation=many)
     if other.mean() <= 1 - SHARE and covered.mean() >= SHARE:
         return Finding(True, expected, measured)
     if other.mean() <= 1 - SHARE:

@@ -26,7 +26,7 @@ def of_other_headings(turn, hits, given):
         f"turned by q.z as if it were an angle: {right}": lambda z, w: z,
         f"turned by q.w as if it were an angle: {right}": lambda z, w: w,
         f"turned by 2 * q.z: {right}": lambda z, w: 2 * z,
-        f"turned by half the heading: {right}": np.arctan2,
+        f"turned by half the heading: {right}; a quaternion turns a vector as q * v * conjugate(q)": np.arctan2,
         f"turned by 2 * q.z * q.w, which is about the sine of the heading, not the heading: {right}": lambda z, w: (
             2 * z * w
         ),
@@ -87,6 +87,13 @@ def of_other_rays(found):
     yield "those with sin and cos exchanged: x is range * cos(angle)", polar(distance, np.pi / 2 - angle)
     yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
     yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
+    best = np.array([int(np.argmin(distance[: i + 1])) for i in range(len(distance))])
+    words = "the nearest hits of all scans so far: begin the search anew in each scan"
+    for direction in (angle[best], angle, first):
+        yield words, polar(distance[best], direction)
+    words = "those of an angle that grows by more than angle_increment from ray to ray: angle_min counts once only"
+    yield words, polar(distance, found.rays * (first + step))
+    yield words, polar(distance, found.rays * first)
     yield "those of a ray's number as its angle: angle_increment is missing", polar(distance, first + found.rays)
     numbers = np.radians(found.rays)
     yield "those of a ray's number as its angle in degrees: use angle_min and angle_increment", polar(distance, numbers)
@@ -133,10 +140,11 @@ def of_other_rays(found):
     yield "the middle of all hits, not the nearest", np.array([np.nanmean(points, 0) for points in every])
 
 
-def apart(points, truth, seen, hits):
+def apart(points, truth, seen, hits, step):
     """Return in what wrong points are right, as the end of "your points are ..."; empty if in nothing.
 
-    `points` and `truth` are in odom, `seen` and `hits` the same in the scanner's frame, all (n, 3) [m].
+    `points` and `truth` are in odom, `seen` and `hits` the same in the scanner's frame, all (n, 3) [m]; `step` is the
+    angle between two rays [rad].
     """
     there = ~np.isnan(points[:, 0])
     points, truth, seen, hits = points[there], truth[there], seen[there], hits[there]
@@ -148,10 +156,26 @@ def apart(points, truth, seen, hits):
     axes = [name for name, each in zip(same, (*off.T, off[:, 0] & off[:, 1]), strict=True) if each.mean() >= SHARE]
     if np.mean(np.linalg.norm(points - truth - shift, axis=1) <= CLOSE) >= SHARE:
         return f"all shifted by the same way in odom, ({', '.join(f'{v:.2f}' for v in shift)}) m"
+    own = np.median(seen - hits, 0)
+    if np.mean(np.linalg.norm(seen - hits - own, axis=1) <= CLOSE) >= SHARE:
+        said = ", ".join(f"{v:.2f}" for v in own)
+        return (
+            f"all shifted by the same way in the scanner's frame, ({said}) m: there a hit is at range * cos(angle), "
+            "range * sin(angle), 0, and nothing is added; the transform holds the mount"
+        )
     if np.mean(np.abs(np.linalg.norm(seen, axis=1) - np.linalg.norm(hits, axis=1)) <= CLOSE) >= SHARE:
         usual = float(np.median(angles))
         if np.mean(np.abs(angles - usual) <= SAME_WAY) >= SHARE:
-            return f"as far from the scanner as the hits, in directions that are {np.degrees(usual):.0f} degrees off"
+            rays, degrees = usual / step, np.degrees(usual)
+            whole = abs(rays - round(rays)) < 0.1 and abs(rays) >= 1 and abs(degrees - 45 * round(degrees / 45)) > 0.5
+            why = (
+                f", {abs(round(rays))} rays: the number of a ray is counted from the first one of ranges, also where "
+                "only a part of them is looked at"
+            )
+            return (
+                f"as far from the scanner as the hits, in directions that are {degrees:.0f} degrees off"
+                f"{why if whole else ''}"
+            )
         return "as far from the scanner as the hits, in other directions: the angle, or a rotation, is wrong"
     if np.mean(np.abs(angles) <= SAME_WAY) >= SHARE and "z" in axes:
         usual = float(np.median(factors))

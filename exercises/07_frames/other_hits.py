@@ -21,15 +21,22 @@ def hits_of(found):
     return [np.stack([row * np.cos(at), row * np.sin(at), 0 * row], -1) for row, at in valid(found)]
 
 
-def several(number):
-    """Return that scans got several points each; empty if most got one."""
+def several(number, times, stamps):
+    """Return that scans got several points each, with the reason; empty if most got one.
+
+    `times` are those of all points [ns], `stamps` those in their headers [s]. Points of one scan that come at one time
+    are made by a loop over its rays; others answer a scan again that has its point.
+    """
     if np.mean(number > 1) < 0.5:
         return ""
-    usual = np.median(number[number > 0])
-    return (
-        f"your node publishes about {usual:.0f} points for each scan: one is asked for, the nearest hit, published "
-        "once, behind the loop over the rays"
-    )
+    usual = f"your node publishes about {np.median(number[number > 0]):.0f} points for each scan"
+    rounds = np.unique(np.stack([times, np.round(stamps * 1e3)], 1), axis=0)
+    if len(rounds) > 0.7 * len(times):
+        return (
+            f"{usual}, one after the other: one is asked for. A scan that has its point is done: take it out of those "
+            "that wait, such as with remove() or popleft()"
+        )
+    return f"{usual}: one is asked for, the nearest hit, published once, behind the loop over the rays"
 
 
 def some_hit(found, wrong, seen):

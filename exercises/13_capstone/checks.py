@@ -25,7 +25,7 @@ OFF = 0.15  # [m] from the middle of an occupied cell to an obstacle: one cell, 
 HITS = 3  # of the scanner, in one cell, that make it a wall which the map must show
 WALLS, TRUE, SEEN, NEVER_SEEN = 0.9, 0.92, 0.9, 0.05  # shares of cells
 FEWEST = 30  # cells; fewer say nothing about a map
-FITS = 0.8  # of the occupied cells, to fit a misconception
+FITS, BACK = 0.8, 0.6  # of the occupied cells, to fit a misconception; of what it would draw, that is occupied
 EARLY = 0.5  # of the occupied cells of the first map that the scanner had not hit yet: the map was known before
 LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
 MOVED = 0.3  # [m]
@@ -199,6 +199,9 @@ def free(recording, parameters):
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
         words = DRIVING.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
+        fitting = (each for each, changed in rearranged(marked) if changed[passed].mean() >= FITS > share + 0.2)
+        words = next((f"your walls are right, but of your free cells {each}" for each in fitting), "")
+    if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
         words = DRIVING.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
@@ -310,7 +313,7 @@ def why(recording, said, scan):
     if words := wrong_values(said, fits):
         return words
     if marked.sum() < FEWEST:
-        return "hardly any cell is occupied"
+        return DRIVING.hardly_any(said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]])
     for words, changed in rearranged(marked):
         if fits(changed):
             return words
@@ -318,7 +321,8 @@ def why(recording, said, scan):
     for words, changed in (*shifted(marked), *DRIVING.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION)):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
-    if words := DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording):
+    words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
+    if words := words or DRIVING.suspect(recording, "counter", "pose"):
         return words
     wrong = marked & ~solid
     if wrong.sum() < FEWEST:
@@ -340,8 +344,9 @@ def drawn_elsewhere(recording):
         marked, scan = said >= OCCUPIED, scans(recording, at)
         best, words = grown(cells(hits(scan)) > 0)[marked].mean() + 0.2, ""
         for each, points in misplaced(scan):
-            share = grown(cells(points) > 0)[marked].mean()
-            if share >= FITS and share > best:
+            drawn = cells(points) > 0
+            share, back = grown(drawn)[marked].mean(), grown(marked)[drawn].mean()  # what is scattered fits all walls
+            if share >= FITS and share > best and back >= BACK:
                 best, words = share, each
         return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
     return ""

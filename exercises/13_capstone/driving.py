@@ -9,6 +9,7 @@ AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was d
 SLOW = 0.15  # [m/s]
 TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
+PLANNING = "pose", "counter", "sign", "cell", "way", "search"  # suspects in how a way is found and followed
 
 
 def other_origin(x, y, grid):
@@ -33,14 +34,17 @@ def commands(recording):
 
 
 def stands(recording):
-    """Return why a robot never drove, as far as its commands tell; empty if they do not."""
+    """Return why a robot never drove, as far as its commands and its file tell; empty if they do not."""
     ahead, turning = commands(recording)
     if not len(ahead):
         return "no command came on /cmd_vel"
+    tests = [f"line {each['line']}, `{each['code']}`" for each in recording.facts().get("before_speeds", [])]
+    never = f"; one of the conditions before it never held: {'; '.join(tests[-2:])}" if tests else ""
     if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
-        return f"all of its {len(ahead)} commands were 0"
+        return f"all of its {len(ahead)} commands were 0{never}"
     if not np.abs(ahead).max() > 0.01:
-        return suspect(recording, "heading", "angle", "ray") or "linear.x was 0 in every command"
+        said = suspect(recording, "pose", "counter", "sign", "cell", "heading", "angle", "ray")
+        return said or f"linear.x was 0 in every command{never}"
     return ""
 
 
@@ -52,15 +56,20 @@ def slow_or_lost(recording):
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
+    planning = suspect(recording, *PLANNING)
     if turns > TURNS and way < 0.1 * seconds:
-        said = suspect(recording, "heading", "angle", "ray", "wrap") or (
-            "an angle to turn by must be brought between -pi and pi, and be measured from where the robot looks"
+        said = (
+            planning
+            or suspect(recording, "heading", "angle", "ray", "wrap")
+            or ("an angle to turn by must be brought between -pi and pi, and be measured from where the robot looks")
         )
         return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
     if len(ahead) and 0 < ahead.max() < SLOW:
         return f"linear.x was {ahead.max():.2f} m/s at most, too slow to see all rooms in {seconds:.0f} s"
     if way < 0.1 * seconds:
-        return f"the robot drove {way:.1f} m in {seconds:.0f} s: most of the time it stood or turned"
+        return f"the robot drove {way:.1f} m in {seconds:.0f} s: {planning or 'most of the time it stood or turned'}"
+    if planning or suspect(recording, "wrap"):
+        return planning or suspect(recording, "wrap")
     if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
         return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
@@ -78,7 +87,11 @@ def touched(recording, radius, at, place):
         for signal in (recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw"))
     )
     bearing = np.remainder(np.arctan2(place[1] - y, place[0] - x) - yaw + np.pi, 2 * np.pi) - np.pi
-    if said := suspect(recording, "ray", "heading", "angle"):
+    if said := suspect(
+        recording, "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
+    ):
+        return said
+    if said := drives_while_turning(recording):
         return said
     if abs(bearing) > AHEAD:
         side = "left" if bearing > 0 else "right"
@@ -87,6 +100,31 @@ def touched(recording, radius, at, place):
             f"way leaves less room than the robot's radius, {radius:g} m, as if it were a point; widen walls by 0.25 m"
         )
     return "it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time"
+
+
+def drives_while_turning(recording):
+    """Return that the robot never slows down where it turns hard; empty if it does."""
+    ahead, turning = commands(recording)
+    if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.5:
+        return ""
+    hard = np.abs(turning) > 0.8 * np.abs(turning).max()
+    if hard.sum() < 10 or np.mean(ahead[hard] > 0.9 * ahead.max()) < 0.9:
+        return ""
+    return (
+        f"it drives on with {ahead.max():.2f} m/s, as fast as ever, while it turns with {np.abs(turning).max():.1f} "
+        "rad/s, and leaves its way in wide curves: drive slowly, or not at all, until it looks along the way"
+    )
+
+
+def hardly_any(said, maps):
+    """Return what is odd about a map with hardly any walls, given all maps that came."""
+    if len(maps) > 3 and all(np.array_equal(maps[0], each) for each in maps):
+        kind = "all cells are unknown" if (said < 0).all() else f"{(said >= 65).sum()} cells are occupied"
+        return (
+            f"all {len(maps)} maps are the same, {kind}: data is made once and published again and again, so nothing "
+            "that is scanned gets into it; make data anew for each publish()"
+        )
+    return "hardly any cell is occupied"
 
 
 def nearest_point(shapes, point):

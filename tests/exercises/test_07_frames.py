@@ -151,6 +151,7 @@ def test_another_frame_is_named():
         ({"line": 30, "frames": ["/odom"], "gives_up": False}, "do not begin with a slash"),
         ({"line": 28, "frames": ["odom"], "gives_up": True}, "line 28 asks for the transform of the scan's time"),
         ({"line": 28, "frames": ["odom"], "gives_up": False}, ""),
+        ({"line": 28, "frames": [], "gives_up": False, "altered": "a.frame_id[1:]"}, "asks for a.frame_id[1:], which"),
     ],
 )
 def test_silence_is_explained_by_what_the_node_asks_for(lookup, words):
@@ -185,3 +186,63 @@ def test_several_points_for_each_scan_and_hits_of_another_ray_are_named():
     near = CHECKS["OTHER_HITS"]["chosen"]([(hits, angles) for hits in every], measure)
     said = run.answer(both.of(near), late=0.02).places().explanation
     assert "only rays from about -48 to 49 degrees" in said
+
+
+def test_a_scan_that_is_answered_again_and_again_has_several_points():
+    run = Run()
+    truth = run.truth
+    times = np.concatenate([run.at + late for late in (0.02, 0.07, 0.12)])
+    for i, axis in enumerate("xyz"):
+        run.signals[f"topics/nearest_hit/point/{axis}"] = (times, np.tile(truth[:, i], 3))
+    run.signals["topics/nearest_hit/header/stamp"] = (times, np.tile(run.at, 3))
+    run.signals["topics/nearest_hit/count"] = (times, np.ones(len(times)))
+    finding = CHECKS["stamps"](run, {})
+    assert run.places().passed and not finding.passed
+    assert "about 3 points for each scan, one after the other" in finding.explanation
+
+
+@pytest.mark.parametrize(
+    ("left_out", "words"),
+    [
+        (lambda away, angle: away > 1.0, "nearer than about 1.0 m"),
+        (lambda away, angle: away < 1.0, "farther than about 1.0 m"),
+        (lambda away, angle: np.abs(angle) > 45, "degrees: all rays"),
+        (lambda away, angle: np.arange(len(away)) % 2 == 1, "one in 0.2 s, as of a timer"),
+        (lambda away, angle: np.arange(len(away)) % 5 < 2, "keep a scan until its transform is there"),
+    ],
+)
+def test_what_scans_without_a_point_have_in_common(left_out, words):
+    run = Run()
+    found = CHECKS["scans"](run)
+    away = np.linalg.norm(found.hits, axis=1)
+    away = away / np.median(away)  # some to either side of 1 m
+    angle = np.degrees(np.arctan2(found.hits[:, 1], found.hits[:, 0]))
+    points = np.where(left_out(away, angle)[:, None], np.nan, run.truth)
+    hits = found.hits * (away / np.linalg.norm(found.hits, axis=1))[:, None]
+    seen = SimpleNamespace(points=points, stamps=run.at, hits=hits)
+    assert words in CHECKS["UNANSWERED"]["left_out"](seen, ~np.isnan(points[:, 0]), run.truth)
+
+
+def test_rays_of_a_part_of_the_scan_and_transforms_in_the_wrong_order():
+    run = Run()
+    found, odom = CHECKS["scans"](run), CHECKS["odom"]
+    polar = CHECKS["polar"]
+    distance, angle = np.linalg.norm(found.hits, axis=1), np.arctan2(found.hits[:, 1], found.hits[:, 0])
+    both = CHECKS["both_frames"](run, found)
+    said = run.answer(both.of(polar(distance, angle - 7 * STEP)), late=0.02).places().explanation
+    assert "-24 degrees off, 7 rays: the number of a ray is counted" in said
+    both_of, shift = both.of(found.hits - (0.2, 0.0, 0.0)), "(-0.20, 0.00, 0.00) m: there a hit is at range * cos"
+    assert shift in run.answer(both_of, late=0.02).places().explanation
+    best = np.minimum.accumulate(distance)
+    said = run.answer(both.of(polar(best, angle)), late=0.02).places().explanation
+    assert "begin the search anew in each scan" in said
+    said = run.answer(found.mount.of(odom(run, run.at).of(found.hits)), late=0.02).places().explanation
+    assert "both transforms in the wrong order" in said
+
+
+def test_points_that_come_only_if_the_hit_has_moved():
+    truth = np.zeros((60, 3))
+    truth[:, 0] = np.arange(60) * 0.02
+    there = np.arange(60) % 5 == 0
+    assert "had moved by about 0.10 m" in CHECKS["UNANSWERED"]["_unmoved"](there, truth)
+    assert CHECKS["UNANSWERED"]["_unmoved"](np.random.default_rng(1).random(60) < 0.5, truth) == ""

@@ -15,7 +15,7 @@ DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
 NOW = np.arange(0.0, 36.0, 0.2)
 
 
-def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, suspects=()):
+def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, suspects=(), tests=()):
     """A recording as these functions see it."""
     signals = {f"truth/robot/{name}": values for name, values in (("x", x), ("y", y), ("yaw", yaw))}
     signals["truth/robot/distance"] = np.cumsum(np.hypot(np.diff(x, prepend=x[:1]), np.diff(y, prepend=y[:1])))
@@ -24,7 +24,7 @@ def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW,
     return SimpleNamespace(
         signal=lambda name: Signal(times[: len(signals[name])], signals[name]),
         end_ns=36_000_000_000,
-        facts=lambda: {"suspects": list(suspects)},
+        facts=lambda: {"suspects": list(suspects), "before_speeds": list(tests)},
     )
 
 
@@ -56,6 +56,34 @@ def test_why_a_robot_never_drove(commands, words):
 def test_why_a_robot_did_not_see_all(run, words):
     said = DRIVING.slow_or_lost(run)
     assert words in said if words else said == ""
+
+
+def test_the_conditions_before_a_speed_that_is_never_set():
+    tests = [{"line": line, "code": f"if {line}:"} for line in (3, 5, 7)]
+    said = DRIVING.stands(recording(turning=1 + 0 * NOW, tests=tests))
+    assert said.endswith("never held: line 5, `if 5:`; line 7, `if 7:`")
+    assert "commands were 0; one of the conditions before it" in DRIVING.stands(recording(tests=tests))
+    sign = {"line": 9, "about": "sign", "said": "the wrong sign"}
+    assert DRIVING.stands(recording(turning=1 + 0 * NOW, suspects=[sign])) == "line 9: the wrong sign"
+
+
+def test_a_robot_that_never_slows_down_to_turn():
+    turning = np.where(NOW % 4 < 2, 1.2, 0.1)
+    fast, slow = (recording(turning=turning, ahead=ahead) for ahead in (0.5 + 0 * NOW, np.where(turning > 1, 0.1, 0.5)))
+    assert "as fast as ever, while it turns with 1.2 rad/s" in DRIVING.drives_while_turning(fast)
+    assert "as fast as ever" in DRIVING.touched(fast, 0.18, 0, (0.0, 0.18))
+    assert DRIVING.drives_while_turning(slow) == DRIVING.drives_while_turning(recording()) == ""
+
+
+def test_a_robot_that_drove_far_and_did_not_see_all_is_looked_up_in_its_file():
+    search = {"line": 9, "about": "search", "said": "runs deep"}
+    assert DRIVING.slow_or_lost(recording(x=0.5 * NOW, ahead=0.5 + 0 * NOW, suspects=[search])) == "line 9: runs deep"
+
+
+def test_maps_that_are_all_the_same():
+    said = np.full((80, 100), -1.0)
+    assert "all 5 maps are the same, all cells are unknown" in DRIVING.hardly_any(said, [said.ravel()] * 5)
+    assert DRIVING.hardly_any(said, [said.ravel()] * 4 + [0 * said.ravel()]) == "hardly any cell is occupied"
 
 
 def test_what_was_touched_ahead_and_beside():
@@ -128,3 +156,19 @@ def test_walls_that_are_widened():
 )
 def test_an_origin_that_is_something_else(x, y, words):
     assert words in DRIVING.other_origin(x, y, Grid(0.1, 100, 80, -5.0, -4.0))
+
+
+def test_scattered_hits_do_not_explain_the_walls_of_a_map(monkeypatch):
+    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    said = np.full((80, 100), -1.0)
+    said[40, 10:60] = 100
+    wall = np.stack([np.arange(10, 60) / 10 - 4.95, np.full(50, 0.05)], 1)
+    everywhere = np.concatenate([wall, *(wall + np.array([0, 0.4 * row]) for row in range(1, 8))])
+    known = checks["drawn_elsewhere"].__globals__
+    monkeypatch.setitem(known, "grid", lambda *given: (said, 1.0))
+    monkeypatch.setitem(known, "scans", lambda *given: None)
+    monkeypatch.setitem(known, "hits", lambda *given: np.array([[4.0, 3.0]]))
+    recording = SimpleNamespace(arrays=lambda name: (np.zeros(1), []), facts=lambda: {})
+    for points, words in ((wall, "a mistake"), (everywhere, "")):
+        monkeypatch.setitem(known, "misplaced", lambda scan, points=points: [("a mistake", points)])
+        assert checks["drawn_elsewhere"](recording) == words

@@ -14,7 +14,7 @@ from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.lint.counters import counters
 from gz_course.grader.lint.delays import delays
 from gz_course.grader.lint.early_publishing import early_publishing
-from gz_course.grader.lint.origins import conditions, of_the_drive, origins
+from gz_course.grader.lint.origins import before_speeds, conditions, of_the_drive, origins
 from gz_course.grader.lint.repetitions import repetitions
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.message_fields import message_fields
@@ -77,6 +77,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     places = {
+        "before_speeds": before_speeds(content),
         "conditions": conditions(content),
         "counters": counters(content),
         "delays": delays(content),

@@ -34,12 +34,14 @@ from gz_course.grader.lint.slips import (
     searches,
     sequences,
     sorted_rays,
+    stamp_parts,
     starts,
     states,
     time_units,
     transforms,
     unreached,
     waiting,
+    waiting_messages,
 )
 from gz_course.grader.lint.slips.everyday import LONGEST_PERIOD, periods
 from gz_course.grader.lint.slips.message_fields import unknown_fields
@@ -49,8 +51,8 @@ MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, never_set.LOOKS,
-    unreached.LOOKS, time_units.LOOKS,
-    no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS,
+    unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS,
+    no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,

@@ -9,6 +9,12 @@ from gz_course.grader.lint.slips.unreached import blocks
 from gz_course.grader.lint.syntax import Place, assignments, called, functions
 
 FUNCTIONS = frozenset({"rclpy.ok", "math.isfinite", "math.isnan", "math.isinf", "isfinite", "isnan", "isinf"})
+# Functions of math and NumPy.
+PURE = frozenset({
+    "append", "clip", "cos", "sin", "sqrt", "atan2", "arctan2", "remainder", "fmod", "radians", "degrees", "flip",
+    "fliplr", "flipud", "roll", "where", "nan_to_num", "reshape", "transpose", "sort", "delete", "insert", "round",
+    "concatenate", "maximum", "minimum", "abs", "floor", "ceil",
+})  # fmt: skip
 MESSAGES = frozenset({
     "Twist", "TwistStamped", "String", "Float32", "Float64", "Int32", "Bool", "Odometry", "LaserScan", "PointStamped",
     "PoseStamped", "Point", "Vector3", "OccupancyGrid", "TransformStamped", "Pose", "Header", "JointState", "Image",
@@ -27,6 +33,23 @@ def thrown_away(tree: ast.AST) -> Iterator[Place]:
             yield node.lineno, f"{code} compares and throws the result away: return, if or = keeps it"
         elif isinstance(node.value, ast.BinOp):
             yield node.lineno, f"{code} is computed and thrown away: += or = keeps the result"
+        elif isinstance(node.value, ast.Call) and _only_returns(node.value):
+            name = ast.unparse(node.value.func)
+            yield (
+                node.lineno,
+                f"{code} is thrown away: {name}() does not change what it is given, it returns the result; "
+                f"... = {name}(...) keeps it",
+            )
+
+
+def _only_returns(call: ast.Call) -> bool:
+    """Return whether a call does nothing but return a value."""
+    owner, _, name = ast.unparse(call.func).rpartition(".")
+    if name.startswith("do_transform_"):
+        return True
+    if owner in ("np", "numpy", "math"):
+        return name in PURE and not any(each.arg in ("out", "copyto") for each in call.keywords)
+    return (name == "sorted" and not owner) or (name == "transform" and "buf" in owner.lower() and len(call.args) == 2)
 
 
 def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Place, last_name
+from gz_course.grader.lint.syntax import Place
 
 UNITS = {1e-9: "nanoseconds", 1e-6: "microseconds", 1e-3: "milliseconds", 1.0: "seconds", 60.0: "minutes"}
 SHORTEST = 0.02  # [s] a shorter time, written in another unit than seconds, is compared with by mistake
@@ -82,22 +82,6 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
         else:
             if abs(seconds) > LONGEST or 1e-9 < abs(seconds) < 1e-6:
                 yield node.lineno, f"{ast.unparse(node)} lasts {seconds:g} s: 5 s are Duration(seconds=5)"
-
-
-def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
-    """Find the nanoseconds within a second compared with a whole second or more, which they never reach."""
-    numbers = named_numbers(tree)
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Compare) or len(node.ops) != 1:
-            continue
-        limit = number(node.comparators[0], numbers)
-        within = last_name(node.left) == "nanosec" or ast.unparse(node.left).endswith("seconds_nanoseconds()[1]")
-        if within and limit is not None and limit >= 1e9:
-            yield (
-                node.lineno,
-                f"{ast.unparse(node)[:70]}: these are the nanoseconds within the current second, always less than "
-                "1e9: the whole time is sec + nanosec / 1e9, or Time.nanoseconds",
-            )
 
 
 def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
@@ -238,33 +222,4 @@ def _common(units: list[float | None]) -> float | None:
     return first if first is not None and all(u is not None and math.isclose(u, first) for u in units) else None
 
 
-def wrong_fractions(tree: ast.AST) -> Iterator[Place]:
-    """Find `sec + nanosec * 1e-6`: the nanoseconds of a time, added to its seconds with another factor than 1e-9."""
-    numbers = named_numbers(tree)
-    parts: dict[str, str] = {}  # names of the two parts of a time
-    for node in ast.walk(tree):
-        match node:
-            case ast.Assign(targets=[ast.Tuple(elts=[one, other])], value=ast.Call(func=ast.Attribute(attr=name))):
-                if name == "seconds_nanoseconds":
-                    parts |= {ast.unparse(one): "sec", ast.unparse(other): "nanosec"}
-    for node in ast.walk(tree):
-        match node:
-            case ast.BinOp(left=whole, op=ast.Add(), right=ast.BinOp(left=part, op=operator, right=by)):
-                factor = number(by, numbers)
-                if _part(whole, parts) != "sec" or _part(part, parts) != "nanosec" or not factor:
-                    continue
-                factor = 1 / factor if isinstance(operator, ast.Div) else factor
-                if isinstance(operator, ast.Mult | ast.Div) and not math.isclose(factor, 1e-9, rel_tol=1e-3):
-                    yield (
-                        node.lineno,
-                        f"{ast.unparse(node)[:70]}: a nanosecond is 1e-9 s, and here it counts as {factor:g} s: "
-                        f"{ast.unparse(whole)} + {ast.unparse(part)} / 1e9",
-                    )
-
-
-def _part(node: ast.expr, parts: Mapping[str, str]) -> str:
-    name = ast.unparse(node)
-    return parts.get(name, name.rpartition(".")[2])
-
-
-LOOKS = (wrong_units, negative_times, wrong_fractions, parts_of_a_second, times_as_numbers)
+LOOKS = (wrong_units, negative_times, times_as_numbers)

@@ -141,10 +141,19 @@ def _asked_for(tree: ast.Module) -> Iterator[dict[str, Any]]:
     for call, time in _lookups(tree):
         named = [each.value for each in call.keywords if each.arg in ("target_frame", "source_frame")]
         frames = _texts([*call.args[:2], *named], constants)
-        yield {"line": call.lineno, "frames": frames, "gives_up": gives_up and _of_a_stamp(tree, time)}
+        found = {"line": call.lineno, "frames": frames, "gives_up": gives_up and _of_a_stamp(tree, time)}
+        altered = next((text for each in [*call.args[:2], *named] if (text := _altered(each))), "")
+        yield found | ({"altered": altered} if altered else {})
     for call, name in calls(tree):
         if name == "transform" and "buf" in ast.unparse(call.func).lower() and call.args:
             yield {"line": call.lineno, "frames": _texts(call.args[1:2], constants), "gives_up": gives_up}
+
+
+def _altered(node: ast.expr) -> str:
+    """Return an expression that takes a part of a frame_id, more than its first slash; empty for any other."""
+    if isinstance(node, ast.Call | ast.Subscript | ast.BinOp) and ".frame_id" in (text := ast.unparse(node)):
+        return "" if "strip('/')" in text else text[:60]
+    return ""
 
 
 def _texts(nodes: list[ast.expr], constants: dict[str, Any]) -> list[str]:
@@ -162,16 +171,39 @@ def _of_a_stamp(tree: ast.AST, time: ast.expr | None) -> bool:
 
 def _keeps_messages(tree: ast.AST) -> bool:
     """Return whether a function puts what it is called with into an attribute, or into a list that outlives it."""
-    if callbacks(tree) & KEEPS:
+    if callbacks(tree) & KEEPS or any(isinstance(node, ast.Await) for node in ast.walk(tree)):
         return True
     for function in functions(tree):
         given = {each.arg for each in function.args.args} - {"self"}
         for node in ast.walk(function):
+            if _asked_at_once(tree, function, node, given):
+                continue
             kept = isinstance(node, ast.Call) and last_name(node.func) in KEEPS and "." in ast.unparse(node.func)
-            kept |= isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("self.")
+            kept |= isinstance(node, ast.Assign) and any(
+                isinstance(each, ast.Attribute) and ast.unparse(each).startswith("self.")
+                for each in ast.walk(node.targets[0])
+            )
             if kept and given & {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}:
                 return True
     return False
+
+
+def _asked_at_once(tree: ast.AST, function: ast.FunctionDef, node: ast.AST, given: set[str]) -> bool:
+    """Return whether a callback puts its message into an attribute from which only its own lookup takes it."""
+    handed, subscribed = callbacks(tree), callbacks(tree, ("create_subscription",))
+    plain = isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute)
+    if not isinstance(node, ast.Assign) or not plain or node not in function.body or function.name not in subscribed:
+        return False
+    kept = ast.unparse(node.targets[0])
+    if ast.unparse(node.value) not in given:
+        return False
+    before = any(
+        isinstance(each, ast.Attribute) and ast.unparse(each) == kept and each.lineno < node.lineno
+        for each in ast.walk(function)
+    )
+    asking = [each for each in functions(tree) if any(name in ASKED for _, name in calls(each))]
+    later = {name for call, name in calls(function) if call.lineno > node.lineno}
+    return not before and all(each is function or (each.name in later and each.name not in handed) for each in asking)
 
 
 def shared_headers(content: bytes) -> Places:

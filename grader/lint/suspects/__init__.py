@@ -28,6 +28,7 @@ from gz_course.grader.lint.suspects import (
     rays,
     same_places,
     smoothing,
+    ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -50,8 +51,9 @@ LOOKS = (
     *old_values.LOOKS,
     *drives.LOOKS,
     *hidden_errors.LOOKS,
+    *ways.LOOKS,
 )
-MOST = 12  # suspects kept
+MOST = 20  # suspects kept
 
 
 def suspects(content: bytes) -> Places:

@@ -125,10 +125,16 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
         r"remainder\(|fmod\(|% |atan2\((?:math\.|np\.)?sin|arctan2\(np\.sin|(?:while|if) .*(?:>|<) -?(?:\w+\.)?pi", text
     ):
         return
+    aimed = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if called(value) & {"atan2", "arctan2"} and isinstance(target, ast.Name)
+    }
     for node in ast.walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
             continue
-        if HEADING.search(ast.unparse(node.right)) and called(node.left) & {"atan2", "arctan2"}:
+        direction = called(node.left) & {"atan2", "arctan2"} or ast.unparse(node.left) in aimed
+        if HEADING.search(ast.unparse(node.right)) and direction:
             yield (
                 node.lineno,
                 "wrap",

@@ -86,5 +86,21 @@ def test_a_field_that_a_message_does_not_have():
     assert "a String has no field text: it is called data" in slips(text, 8.0, fields)[0]["said"]
 
 
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("from rclpy.time import Time\nt = Time(seconds=3)", False),
+        ("import rclpy.time\nt = rclpy.time.Time(seconds=3)", False),
+        ("from collections import namedtuple\nTime = namedtuple('Time', 'seconds')\nt = Time(seconds=3)", False),
+        ("from builtin_interfaces.msg import Time\nt = Time(seconds=3)", True),
+        ("import builtin_interfaces.msg as b\nt = b.Time(seconds=3)", True),
+        ("from builtin_interfaces import msg\nt = msg.Time(seconds=3)", True),
+    ],
+)
+def test_a_class_of_the_same_name_is_no_message(text, found):
+    fields = message_fields(["std_msgs/msg/Header"])
+    assert any("has no field seconds" in place["said"] for place in slips(text.encode(), 8.0, fields)) is found
+
+
 def test_a_file_far_longer_than_a_solution_is_not_looked_through():
     assert slips(b"x == 1\n" * 10) and slips(b"x == 1\n" * 4000) == []

@@ -67,6 +67,30 @@ def test_frames_that_are_written_down_and_scans_that_are_given_up():
     text = node("frame = 'map'", "p = self.buffer.transform(point, frame)")
     assert lookups(text.encode()) == [{"line": 11, "frames": ["map"], "gives_up": True}]
     assert lookups(b"x = (") == []
+    part = node(f"t = {ASK}").replace("scan.header.frame_id", "scan.header.frame_id.split('/')[-1]")
+    assert lookups(part.encode())[0]["altered"] == "scan.header.frame_id.split('/')[-1]"
+    same = node(f"t = {ASK}").replace("scan.header.frame_id", "scan.header.frame_id.lstrip('/')")
+    assert "altered" not in lookups(same.encode())[0]
+
+
+@pytest.mark.parametrize(
+    ("lines", "gives_up"),
+    [
+        (["self.last = scan", f"t = {ASK}"], True),
+        (
+            ["self.last = scan", "self.try_it()", "", "def try_it(self):", "    scan = self.last", f"    t = {ASK}"],
+            True,
+        ),
+        (["scan, self.last = self.last, scan", f"t = {ASK}"], False),
+        (["old = self.last", "self.last = scan", "scan = old", f"t = {ASK}"], False),
+        (["if self.last is None:", "    self.last = scan", f"t = {ASK}"], False),
+        (["await self.ready(scan)", f"t = {ASK}"], False),
+    ],
+)
+def test_who_asks_for_the_newest_scan_alone_gives_the_others_up(lines, gives_up):
+    text = node(*lines)
+    text = text.replace("def on_scan", "async def on_scan") if "await" in text else text
+    assert lookups(text.encode())[0]["gives_up"] is gives_up
 
 
 def test_a_header_of_two_messages_is_found():

@@ -63,6 +63,8 @@ WRONG = {
     "a time is hardly ever exactly this number": ("elapsed < SECONDS", "elapsed == SECONDS"),
     "Duration(nanoseconds=5) lasts 5e-09 s": ("elapsed < SECONDS", "now - self.start < Duration(nanoseconds=5)"),
     "self.start - now is negative": ("now - self.start", "self.start - now"),
+    "a nanosecond is 1e-9 s": ("        best = 9.0", "        best = t.sec + t.nanosec / 1e6"),
+    "t.sec + t.nanosec: a nanosecond is 1e-9 s": ("        best = 9.0", "        best = t.sec + t.nanosec"),
     # slips.py: periods
     "create_timer(PERIOD, which is 100, ...)": ("PERIOD = 0.1", "PERIOD = 100"),
     "10 times per second are create_timer(0.1, ...)": ("PERIOD = 0.1", "PERIOD = 10"),
@@ -123,6 +125,8 @@ WRONG = {
     # no_effect.py
     "compares and throws the result away": ("self.done = True", "self.done == True"),
     "is computed and thrown away": ("self.done = True", "self.done + 1"),
+    "do_transform_point() does not change what it is given": ("self.done = True", "do_transform_point(hit, t)"),
+    "np.clip(ranges, 0, 1) is thrown away": ("        best = 9.0", "        best = 9.0\n        np.clip(ranges, 0, 1)"),
     "self.done =+ 1 sets it to 1": ("self.done = True", "self.done =+ 1"),
     "is set after publish(command)": ("self.publisher.publish(command)",
      "self.publisher.publish(command)\n        command.linear.x = 0.0"),
@@ -171,6 +175,9 @@ HARMLESS = [
      "        self.publisher.publish(command)"),
     ("        best = 9.0", "        valid = [r for r in ranges]\n        best = max(valid) + min(valid)"),
     ("        best = 9.0", "        valid = (r for r in ranges)\n        best = max(valid)"),
+    ("        best = 9.0", "        best = t.sec + t.nanosec * 1e-9 + t.sec * 10**9 + t.nanosec"),
+    ("        best = 9.0", "        best = t.sec * 1000 + t.nanosec / 1e6 - int(t.sec * 1e9 + t.nanosec)"),
+    ("        best = 9.0", "        best = 9.0\n        np.clip(ranges, 0, 1, out=ranges)\n        ranges.sort()"),
     ("elapsed < SECONDS", "self.done is True or self.start is None"),
     ("        best = 9.0", "        best = math.sin(math.radians(90)) + math.atan2(p.y, p.x) + math.cos(6)"),
     ("self.done = True", "self.timer.cancel()\n            self.timer = None"),

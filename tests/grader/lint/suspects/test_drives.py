@@ -70,7 +70,7 @@ WRONG = {
     "self.done = True changes nothing: nothing reads self.done": (
         "endless", ("        if passed", "        if passed > 5:\n            self.done = True\n        if passed"),
     ),
-    "except TypeError: hides the errors of the lines below try, line 12": (
+    "except TypeError: hides the errors of lines 13 to 13": (
         "hidden",
         (
             "        passed = (now - self.first).nanoseconds / 1e9\n",

@@ -1,0 +1,119 @@
+"""Suspects in planning: each is found in a file that is right but for it."""
+
+import pytest
+
+from gz_course.grader.lint.suspects import suspects
+
+RIGHT = """\
+def middle(cell):
+    return -5 + (cell[0] + 0.5) * 0.1, -4 + (cell[1] + 0.5) * 0.1
+
+
+from collections import deque
+from math import atan2, pi, remainder
+
+import numpy as np
+
+
+class Robot:
+    def __init__(self):
+        self.way = []
+        self.x = None
+        self.counts = np.zeros((80, 100), dtype=int)
+
+    def on_odom(self, message):
+        self.x = message.pose.pose.position.x
+        self.y = message.pose.pose.position.y
+
+    def plan(self):
+        start = self.cell()
+        before, queue = {start: None}, deque([start])
+        while queue:
+            cell = queue.popleft()
+            if cell in self.goals:
+                break
+            for beside in neighbours(cell):
+                if beside not in before:
+                    before[beside] = cell
+                    queue.append(beside)
+        way = []
+        while cell is not None:
+            way.append(cell)
+            cell = before[cell]
+        return way[::-1]
+
+    def drive(self):
+        if not self.way:
+            self.way = self.plan()
+        x, y = middle(self.way[0])
+        goal = atan2(y - self.y, x - self.x)
+        error = remainder(goal - self.heading, 2 * pi)
+        command.angular.z = max(-1.0, min(1.0, 2 * error))
+        if self.near(x, y):
+            self.way.pop(0)
+
+    def on_scan(self, rows, columns):
+        self.counts[rows, columns] += 1
+"""
+
+
+def test_a_right_file_has_none():
+    assert suspects(RIGHT.encode()) == []
+
+
+SIGN = "remainder(self.heading - goal, 2 * pi)"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "about", "words"),
+    [
+        ("queue.popleft()", "queue.pop()", "search", "takes the newest cell"),
+        ("way[::-1]", "way", "way", "nothing turns it round"),
+        ("            self.way.pop(0)", "            pass", "way", "the robot goes for the same cell for ever"),
+        ("if not self.way:", "if len(self.way) == 0:", "", ""),
+        ("dtype=int", "dtype=np.int8", "counter", "begin again at the other end"),
+        ("dtype=int", "dtype='uint8'", "counter", "begin again at the other end"),
+        ("remainder(goal - self.heading, 2 * pi)", SIGN, "sign", "the error with the wrong sign"),
+        ("middle(self.way[0])", "self.way[0]", "cell", "subtracts metres from"),
+        (
+            "    def on_odom(self, message):\n",
+            "    def on_odom(self, message):\n        if self.x is not None:\n            return\n",
+            "pose",
+            "the pose is that of the first message for ever",
+        ),
+        ("atan2(y - self.y, x - self.x)", "atan2(y, x)", "cell", "from the origin of the map, not from the robot"),
+        (
+            "        self.counts[rows",
+            "        for r in scan.ranges[:180]:\n            pass\n        self.counts[rows",
+            "part",
+            "scan.ranges[:180] leaves out a part of the rays",
+        ),
+        ("remainder(goal - self.heading, 2 * pi)", "goal - self.heading", "wrap", "the long way round"),
+    ],
+)
+def test_each_is_found(old, new, about, words):
+    text = RIGHT.replace(old, new)
+    text = text.replace("remainder(", "wrapped(") if about == "wrap" else text
+    found = [place for place in suspects(text.encode()) if place["about"] == about]
+    assert text != RIGHT and bool(found) == bool(about)
+    assert not found or words in found[0]["said"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("dtype=int", "dtype=np.int8"),
+        ("remainder(goal - self.heading, 2 * pi)", SIGN),
+        ("queue.popleft()", "queue.pop()"),
+        ("return way[::-1]", "way.reverse()\n        return way"),
+        ("self.way.pop(0)", "self.way = self.way[1:]"),
+        ("    def on_odom(self, message):\n",
+         "    def on_odom(self, message):\n        if self.paused is None:\n            return\n"),
+    ],
+)  # fmt: skip
+def test_what_is_right_all_the_same(old, new):
+    text = RIGHT.replace(old, new)
+    text = text.replace("[rows, columns] += 1", "[rows, columns] = 1")  # a mark, not a count
+    text = text.replace("2 * error", "-2 * error") if new == SIGN else text
+    text = text.replace("before[beside] = cell", "before.add(beside)")  # a flood, not a way
+    assert text != RIGHT and suspects(text.encode()) == []
