@@ -36,7 +36,7 @@ def several(number, times, stamps):
             f"{usual}, one after the other: one is asked for. A scan that has its point is done: take it out of those "
             "that wait, such as with remove() or popleft()"
         )
-    return f"{usual}: one is asked for, the nearest hit, published once, behind the loop over the rays"
+    return f"{usual}: one is asked for, the nearest hit, published once, after the loop over the rays"
 
 
 def some_hit(found, wrong, seen):

@@ -40,7 +40,7 @@ def reason(recording, infinite, given, scans):
         place = f"line {lookup['line']} asks for"
         for frame in lookup["frames"]:
             if frame.startswith("/"):
-                return f"{place} the frame {frame!r}: names of frames do not begin with a slash in tf2"
+                return f"{place} the frame {frame!r}: frame names do not begin with a slash in tf2"
             if frame not in FRAMES:
                 return (
                     f"{place} the frame {frame!r}, which does not exist here: the transforms lead from odom to robot "
@@ -50,7 +50,7 @@ def reason(recording, infinite, given, scans):
         if lookup["gives_up"]:
             return (
                 f"line {lookup['line']} asks for the transform of the scan's time when the scan comes; the transform "
-                "comes later, and the node gives the scan up. Keep the scan, and ask again when the next one comes"
+                "comes later, and the node drops the scan. Keep the scan, and ask again when the next one comes"
             )
     return ""
 
@@ -68,7 +68,7 @@ def left_out(found, met, truth):
         return f"{share}, {words}"
     steps = np.diff(found.stamps[there])
     if len(steps) > 3 and np.ptp(steps) < 0.02 and steps[0] > 0.15:
-        return f"{share}, one in {steps[0]:.1f} s, as of a timer: every scan needs one"
+        return f"{share}, one in {steps[0]:.1f} s, as from a timer: every scan needs one"
     return f"{share}: keep a scan until its transform is there"
 
 

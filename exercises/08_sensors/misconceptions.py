@@ -197,7 +197,7 @@ def on_and_on(recording):
         suspect(recording, "gyroscope", "angle")
         or TURNING.turned_early(recording)
         or (
-            "your heading never reached a full turn, 2 pi, so the robot turned on and on: log it in on_imu, and see at "
+            "your heading never reached a full turn, 2 pi, so the robot kept turning: log it in on_imu, and see at "
             "which message it does not grow as the robot turns"
         )
     )

@@ -73,7 +73,10 @@ def why_turned(recording, when, turned):
     z, w = (recording.signal(f"topics/odom/pose/pose/orientation/{part}") for part in "zw")
     by_odometry = np.unwrap(2 * np.arctan2(z.values, w.values))[z.times <= when] if len(z) else np.zeros(1)
     if len(by_odometry) and abs(by_odometry[-1] - by_odometry[0] - FULL_TURN) <= 0.1:
-        return "by odometry, or by commanded speed times time, this was 360 degrees: its wheels stand otherwise"
+        return (
+            "by odometry, or by commanded speed times time, this was 360 degrees: the robot does not turn exactly "
+            "as its wheels say"
+        )
     if said := turned_early(recording):
         return said
     angles = {

@@ -155,7 +155,7 @@ def reached_early(run, goal):
         return words
     if max(near) < 0.6:
         return (
-            f"Your server holds a waypoint for reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
+            f"Your server counts a waypoint as reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
             "asked for"
         )
     if near[0] < 0.2 and np.hypot(*(way[-1] - points[0])) < 0.3:
@@ -276,7 +276,7 @@ def other_visited(run, found, total):
     if found["visited"] == total - 1:
         return f"visited is {found['visited']}, the index of the last waypoint; the robot has been at {total} waypoints"
     if found["visited"] > 3 * total:
-        return f"visited is {found['visited']}, but {total} waypoints were visited: it counts the rounds of a loop"
+        return f"visited is {found['visited']}, but {total} waypoints were visited: it counts the iterations of a loop"
     return f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
 
 
@@ -304,6 +304,9 @@ def other_feedback(run, said, points):
     yield "how far it is along x alone", np.abs(here[:, 0])
     yield "how far it is along y alone", np.abs(here[:, 1])
     yield "how far it is in centimetres", 100 * to(index)
-    yield "how far it was when the robot set off to this waypoint: compute it anew in every round", to(index)[first]
+    yield (
+        "how far it was when the robot set off to this waypoint: compute it again in every iteration",
+        to(index)[first],
+    )
     yield "how far the robot has come since the waypoint before", to(index)[first] - to(index)
     yield "the length of the whole leg less itself, or always 0", np.zeros(len(index))

@@ -126,7 +126,7 @@ def rejects(recording, parameters):
                 why += (
                     ": goal_callback must return GoalResponse.ACCEPT or GoalResponse.REJECT, and returns something else"
                 )
-            return Finding(False, expected, "also a good goal was rejected", explanation=why)
+            return Finding(False, expected, "a good goal was rejected, too", explanation=why)
         return gate
     for goal, words in GOALS.items():
         if event := run.one("accepted", goal):
@@ -210,7 +210,7 @@ def feedback(recording, parameters):
         why = endless(run) or f"Your feedback is too rare: {len(said)} messages in {end - start:.0f} s"
         return wrong(f"{gap:.1f} s without feedback", end, why)
     if len({(each["waypoint"], each["distance"]) for each in said}) == 1:
-        return wrong("it was always the same", end, "Your feedback never changes: compute it anew in every round")
+        return wrong("it was always the same", end, "Your feedback never changes: compute it again in every iteration")
     indices = [each["waypoint"] for each in said]
     if (indices[0], indices[-1]) == (1, len(points)):
         return wrong(f"waypoint was {indices[0]} first", times[1], "Your feedback counts the waypoints from 1")
@@ -234,9 +234,7 @@ def other_index(indices, total):
     if indices == sorted(indices, reverse=True):
         return "waypoint of your feedback counts down, as if it were how many are left: it is an index, from 0"
     if indices == sorted(indices) and indices[-1] > total:
-        return (
-            "waypoint of your feedback counts rounds of the loop: it is the index of the waypoint the robot drives to"
-        )
+        return "waypoint of your feedback counts iterations of the loop: it is the index of the waypoint in hand"
     return ""
 
 
@@ -311,7 +309,7 @@ def busy(recording, parameters):
                 f"a patrol had {'succeeded' if succeeded else 'ended'}" if goal == "cancelled" else "one was cancelled"
             )
             why = LATER.refused(run, goal) or (
-                f"Your server rejects every goal after {after}: it still holds itself for busy"
+                f"Your server rejects every goal after {after}: the flag that says it is busy is not cleared then"
             )
             return Finding(False, expected, f"a goal was rejected after {after}", event["at"], explanation=why)
         if not run.one("accepted", goal):

@@ -174,7 +174,7 @@ def lidar_frame(recording, parameters):
     measured = "nobody publishes a static transform between base_link and lidar_link"
     dead = any(each.process == "static_transform_publisher" for each in deaths(recording))
     if others:
-        measured += f"; one between {others[0][0]} and {others[0][1]} is published: names of frames must be equal"
+        measured += f"; one between {others[0][0]} and {others[0][1]} is published: frame names must be equal"
     return Finding(False, expected, measured, gated=dead)
 
 

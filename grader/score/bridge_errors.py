@@ -19,7 +19,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"cannot become ((?:gz|ignition)::\S+::\w+)|conversion is known for ((?:gz|ignition)::\S+)"),
-        "{0} is the name of a class in C++; this file writes Gazebo's types with points, gz.msgs.NAME",
+        "{0} is the name of a class in C++; this file writes Gazebo's types with dots, gz.msgs.NAME",
     ),
     (
         re.compile(r"(\w+::(?:msg::)?\w+) is not a ROS message type"),
@@ -40,7 +40,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"expected <block end>, but found '(?:\?|<block)[^;]*$"),
-        "a line begins in another column than those it belongs to: all keys of one entry stand below each other",
+        "a line is indented differently from those it belongs to: all keys of one entry begin in the same column",
     ),
 )
 

@@ -49,7 +49,7 @@ MEANINGS = (
         re.compile(
             r"Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'"
         ),
-        "{0} is handed over as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another "
+        "{0} is passed as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another "
         "type of it",
     ),
     (
@@ -99,7 +99,7 @@ MEANINGS = (
     (
         re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
         "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
-        "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is handed over",
+        "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is passed",
     ),
     (
         re.compile(r": package '[\w-]+' not found(?!.*did you mean)"),
@@ -122,7 +122,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'"),
-        "{0} is handed over as a whole number, and the node wants one with a point, such as 1.0",
+        "{0} is passed as a whole number, and the node wants one with a point, such as 1.0",
     ),
     (
         re.compile(r"ParameterAlreadyDeclared.*'use_sim_time'"),

@@ -36,7 +36,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"AttributeError: '(?:float|int|str)' object has no attribute '([xyz])'"),
-        "a number stands where a vector belongs: linear and angular of a Twist have the fields x, y and z, as in "
+        "a number is given where a vector is needed: linear and angular of a Twist have the fields x, y and z, as in "
         "command.linear.{0} = 0.5",
     ),
     (
@@ -49,7 +49,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"TypeError: descriptor '__init__' requires a 'super' object"),
-        "brackets are missing behind super: super().__init__('NODE_NAME')",
+        "brackets are missing after super: super().__init__('NODE_NAME')",
     ),
     (
         re.compile(
@@ -107,7 +107,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"\bInvalidArgumentException: Invalid argument .* passed to"),
-        "names of frames are not empty and do not begin with a slash",
+        "frame names are not empty and do not begin with a slash",
     ),
     (
         re.compile(r"RCLError: .*(?:context is invalid|context is not valid)|InvalidHandle|cannot use Destroyable"),
@@ -243,11 +243,11 @@ MEANINGS = (
     ),
     (
         re.compile(r"IndentationError: unexpected indent"),
-        "this line stands further to the right than the lines it belongs to",
+        "this line is indented further than the lines it belongs to",
     ),
     (
         re.compile(r"IndentationError: expected an indented block"),
-        "what belongs to the line above stands four spaces further to the right",
+        "what belongs to the line above is indented by four more spaces",
     ),
     (
         re.compile(r"IndentationError: unindent does not match|TabError"),

@@ -207,7 +207,7 @@ def test_a_scan_that_is_answered_again_and_again_has_several_points():
         (lambda away, angle: away > 1.0, "nearer than about 1.0 m"),
         (lambda away, angle: away < 1.0, "farther than about 1.0 m"),
         (lambda away, angle: np.abs(angle) > 45, "degrees: all rays"),
-        (lambda away, angle: np.arange(len(away)) % 2 == 1, "one in 0.2 s, as of a timer"),
+        (lambda away, angle: np.arange(len(away)) % 2 == 1, "one in 0.2 s, as from a timer"),
         (lambda away, angle: np.arange(len(away)) % 5 < 2, "keep a scan until its transform is there"),
     ],
 )

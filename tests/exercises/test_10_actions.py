@@ -94,7 +94,7 @@ def test_a_right_patrol_passes():
         (Patrol([[1.2, 0.0], [2.4, 0.7]]), "as seen from the one before"),
         (Patrol([[0.0, 1.2], [0.7, 1.2]]), "x and y of the waypoints are exchanged"),
         (Patrol([[1.2, 0.7], [1.2, 0.0]], status=""), "in the opposite order"),
-        (Patrol([[1.2, 0.0], [1.2, 0.4]]), "holds a waypoint for reached too early"),
+        (Patrol([[1.2, 0.0], [1.2, 0.4]]), "counts a waypoint as reached too early"),
         (Patrol([[1.2, 0.0]]), "after the first waypoint"),
         (Patrol([[0.01, 0.0]]), "before the robot had moved"),
         (Patrol(after=0.1), "drives on when the patrol is over"),
@@ -265,8 +265,8 @@ def test_a_later_patrol_that_goes_elsewhere(waypoints, suspects, words):
     [
         ("goal_length", 0.4, "rejects a goal with a single waypoint: line 9"),
         ("goal_limit", 0.5, "the speed 0.5, which is max_speed itself: line 9"),
-        ("goal_limit", 0.4, "still holds itself for busy"),
-        ("", 0.4, "still holds itself for busy"),
+        ("goal_limit", 0.4, "the flag that says it is busy"),
+        ("", 0.4, "the flag that says it is busy"),
     ],
 )
 def test_a_later_goal_that_is_refused(about, speed, words):

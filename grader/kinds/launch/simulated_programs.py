@@ -2,7 +2,7 @@
 
 The programs in the box are the real ones up to the point where they would begin to simulate or to carry messages
 (`agent/course_agent/remote_*.py`); from there on they ask. Nobody else is served (`claims.py`), and what they say is
-not trusted: a world is a built-in one, or it is read from what they have handed over (`submitted_world.py`); whether it
+not trusted: a world is a built-in one, or it is read from what they have passed (`submitted_world.py`); whether it
 is paused stands on the command line. No file is opened here because of what they name, and no truth goes back to them.
 """
 
@@ -90,7 +90,7 @@ class SimulatedPrograms:
         self._robots: dict[str, dict[str, Any]] = {}  # models that were created, and their parts
         self.world: World | None = None
         self.over = False  # a world that is asked for now comes too late
-        self.building: Callable[[], None] = lambda: None  # called before the simulator gets what was handed over
+        self.building: Callable[[], None] = lambda: None  # called before the simulator gets what was passed
         self.simulators: list[SimulatorProgram] = []
         self.bridges: list[BridgeProgram] = []
         self.calls: list[str] = []
@@ -250,7 +250,7 @@ class SimulatedPrograms:
         return {"done": done, "warnings": warnings} | ({"error": why} if why else {})
 
     def _warn_of_model(self, warnings: list[str], said: object) -> None:
-        """Keep warnings about a model, and those that the box `said` of what is not handed over: of its URDF."""
+        """Keep warnings about a model, and those that the box `said` of what is not passed: of its URDF."""
         others = said[:MOST_WARNINGS] if isinstance(said, list) else []
         texts = [*warnings, *(one_line(text) for text in others if isinstance(text, str))]
         self._model_warnings += list(dict.fromkeys(texts))[: MOST_WARNINGS - len(self._model_warnings)]

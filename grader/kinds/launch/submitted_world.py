@@ -19,7 +19,7 @@ WORLD_FILE = "<world>"  # stands for the file of an element that does not say wh
 
 
 class SubmittedWorld:
-    """What a submission has handed over so far. `fault` says what could not be taken in, empty if all could."""
+    """What a submission has passed so far. `fault` says what could not be taken in, empty if all could."""
 
     def __init__(self) -> None:
         self.assets = Assets()
@@ -35,7 +35,7 @@ class SubmittedWorld:
         held = self._parts.setdefault(key, bytearray())
         self._waiting += len(data)
         if self._waiting > MOST_BYTES:
-            self.fault = f"more than {MOST_BYTES >> 20} MiB of models, meshes and images were handed over"
+            self.fault = f"more than {MOST_BYTES >> 20} MiB of models, meshes and images were passed"
             self._parts.clear()
             self._waiting = 0
             return

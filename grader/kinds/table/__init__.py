@@ -95,7 +95,7 @@ def _row(node: yaml.Node) -> dict[str, Any]:
     for place, (key, value) in enumerate(node.value):
         column = key.value if isinstance(key, yaml.ScalarNode) else ""
         if column not in COLUMNS:
-            hint = did_you_mean(str(column), COLUMNS) or "; a note of your own stands behind a #, not in a column"
+            hint = did_you_mean(str(column), COLUMNS) or "; write your own notes after a #, not in a column"
             raise TableError(_line(key), f"there is no column {shown(str(column), 60)!r}{hint}")
         if column in first:
             again = sum(other in first for other in columns[place:])

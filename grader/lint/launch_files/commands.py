@@ -251,7 +251,7 @@ def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
         yield (
             call.lineno,
             f"the argument {SIM_TIME} is declared, but nothing reads it: an argument of the launch reaches a node only "
-            "where LaunchConfiguration hands it over",
+            "where LaunchConfiguration passes it",
         )
 
 

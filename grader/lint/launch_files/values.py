@@ -85,7 +85,7 @@ def written_into_text(file: LaunchFile) -> Iterator[Place]:
                 yield (
                     each.lineno,
                     f"{_code(node)} puts a description of the object {_code(each)} into the text, not its value, which "
-                    "is known only when the launch runs: hand over the object itself, and where text and value belong "
+                    "is known only when the launch runs: pass the object itself, and where text and value belong "
                     "together, a list of both, such as ['text', value], which launch joins",
                 )
 
@@ -135,7 +135,7 @@ def expressions_of_truth(file: LaunchFile) -> Iterator[Place]:
 
 
 def _small(truth: str) -> str:
-    return f"the value of an argument is the text that was typed, '{truth.lower()}' in small letters, not '{truth}'"
+    return f"the value of an argument is the text that was typed, '{truth.lower()}' in lower case, not '{truth}'"
 
 
 def words_of_the_command(file: LaunchFile) -> Iterator[Place]:

@@ -17,7 +17,7 @@ ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 
 
 def _callbacks(tree: ast.AST) -> Iterator[tuple[str, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda]]:
-    """Yield the role and the function of each callback that is handed over to an ActionServer."""
+    """Yield the role and the function of each callback that is passed to an ActionServer."""
     functions = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)}
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] != "ActionServer":

@@ -1,4 +1,4 @@
-"""Callbacks that are handed over wrongly: called at once, named inside of a lambda that does not call them."""
+"""Callbacks that are passed wrongly: called at once, named inside of a lambda that does not call them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def handed_over(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 
 def called_at_once(tree: ast.AST) -> Iterator[Place]:
-    """Find a callback that is called where it should be handed over."""
+    """Find a callback that is called where it should be passed."""
     functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)}
     for call, given in handed_over(tree):
         if not isinstance(given, ast.Call):
@@ -40,13 +40,13 @@ def called_at_once(tree: ast.AST) -> Iterator[Place]:
         if not given.args and (function.startswith("self.") or isinstance(given.func, ast.Name)):
             yield (
                 call.lineno,
-                f"{function}() calls the function at once and hands over what it returns; the callback itself is "
+                f"{function}() calls the function at once and passes on what it returns; the callback itself is "
                 f"{function}, without brackets",
             )
         elif own is not None or function.endswith(".publish"):
             yield (
                 call.lineno,
-                f"{ast.unparse(given)[:60]} is called at once, and its result, None, is handed over as the callback: "
+                f"{ast.unparse(given)[:60]} is called at once, and its result, None, is passed as the callback: "
                 f"lambda: {ast.unparse(given)[:60]} is called later",
             )
 
@@ -63,7 +63,7 @@ def not_called_in_a_lambda(tree: ast.AST) -> Iterator[Place]:
             name = ast.unparse(given.body)
             yield (
                 given.lineno,
-                f"{ast.unparse(given)} names {name} and does not call it: hand over {name} itself, or write "
+                f"{ast.unparse(given)} names {name} and does not call it: pass {name} itself, or write "
                 f"lambda: {name}()",
             )
 
@@ -73,7 +73,7 @@ def texts_for_callbacks(tree: ast.AST) -> Iterator[Place]:
     for call, given in handed_over(tree):
         if isinstance(given, ast.Constant) and (given.value is None or isinstance(given.value, str)):
             value = ast.unparse(given)
-            yield call.lineno, f"{value} stands where the callback belongs: hand over the function itself, self.NAME"
+            yield call.lineno, f"{value} is given where the callback is needed: pass the function itself, self.NAME"
 
 
 def async_publish(tree: ast.AST) -> Iterator[Place]:

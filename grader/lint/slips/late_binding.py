@@ -56,7 +56,7 @@ def _in_loop(parts: Sequence[ast.AST], bound: set[str]) -> Iterator[Place]:
                 yield (
                     function.lineno,
                     f"this {what} reads {name} when it is called, and the loop is over then: every one of them gets "
-                    f"the last value of {name}. A default keeps the value of this round, {right}",
+                    f"the last value of {name}. A default keeps the value of this iteration, {right}",
                 )
 
 

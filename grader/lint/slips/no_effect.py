@@ -154,7 +154,7 @@ def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
 
 
 def first_round(tree: ast.AST) -> Iterator[Place]:
-    """Find a return at the end of the body of a loop that collects something: it ends the loop in its first round."""
+    """Find a return at the end of the body of a loop that collects something: it ends the loop in its first iteration."""
     for function in functions(tree):
         for node in ast.walk(function):
             if not isinstance(node, ast.For) or not isinstance(node.body[-1], ast.Return):
@@ -165,7 +165,7 @@ def first_round(tree: ast.AST) -> Iterator[Place]:
                 yield (
                     node.body[-1].lineno,
                     f"{ast.unparse(node.body[-1])[:40]} stands inside of the loop of line {node.lineno}, which ends in "
-                    "its first round: further to the left it comes after the loop",
+                    "its first iteration: further to the left it comes after the loop",
                 )
 
 

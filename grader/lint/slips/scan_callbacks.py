@@ -12,7 +12,7 @@ ASKS_FOR_INVALID = ("isinf", "isnan", "isfinite", "range_max", "range_min", "inf
 
 
 def callbacks(tree: ast.AST, methods: tuple[str, ...] = ("create_timer", "create_subscription")) -> set[str]:
-    """Return the names of functions that are handed over to timers and subscriptions."""
+    """Return the names of functions that are passed to timers and subscriptions."""
     found = set()
     for call, _ in calls(tree):
         method = ast.unparse(call.func).rpartition(".")[2]
@@ -92,7 +92,7 @@ def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
                     yield (
                         call.lineno,
                         f"publish() stands in the loop over the rays, line {loop.lineno}, and may publish for each of "
-                        "them: by its indentation it belongs behind the loop",
+                        "them: by its indentation it belongs after the loop",
                     )
                     break
 

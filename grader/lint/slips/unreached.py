@@ -49,7 +49,7 @@ def behind_spin(tree: ast.AST) -> Iterator[Place]:
             if lost := [name for _, name in calls(statement) if name not in harmless]:
                 yield (
                     statement.lineno,
-                    f"{lost[0]}() stands behind spin(), which returns only when the node is shut down: it does not run "
+                    f"{lost[0]}() comes after spin(), which returns only when the node is shut down: it does not run "
                     "before. A timer or a subscription calls a function while the node spins",
                 )
                 return

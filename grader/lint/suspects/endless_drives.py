@@ -241,7 +241,7 @@ def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 statement.lineno,
                 "endless",
-                f"{ast.unparse(statement)[:60]} stands behind the condition of line {before[-1].lineno} and not in "
+                f"{ast.unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
                 "it, so every call sets this speed; indent it, or return where the time is over",
             )
             return

@@ -167,7 +167,7 @@ def integrals(tree: ast.AST) -> Iterator[Suspect]:
                 node.lineno,  # type: ignore[attr-defined]
                 "integral",
                 f"{ast.unparse(node)[:60]} is an integral that nothing limits: it grows while the robot is far "
-                "away, and turns it on when it is near (wind-up); limit it, or leave it out",
+                "away, and keeps it turning when it is near (wind-up); limit it, or leave it out",
             )
 
 

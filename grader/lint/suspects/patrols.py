@@ -90,7 +90,7 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     own[0].lineno,
                     "result",
-                    f"{whole} is made once for all goals, and line {line} counts {field} on: {made_by} belongs into "
+                    f"{whole} is made once for all goals, and line {line} counts {field} on: {made_by} belongs in "
                     "the function that executes a goal",
                 )
         begun = made.get(name, [])

@@ -33,8 +33,8 @@ def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "ray",
-                    f"{ast.unparse(node)[:60]} is the nearest in any direction, and of ranges that are none: choose "
-                    "the rays by their bearing, and those between range_min and range_max",
+                    f"{ast.unparse(node)[:60]} is the nearest in any direction, and includes ranges that are "
+                    "not valid: choose the rays by their bearing, and those between range_min and range_max",
                 )
 
 

@@ -50,5 +50,5 @@ def _why(recording: Recording, topic: str, depth: Sequence[float]) -> str:
         return "lazy opens a bridge only while somebody listens; it says nothing about how many messages are kept"
     for other in bridges(recording):
         if other.ros_topic != topic and other.publisher_qos and depth[0] <= other.publisher_qos.depth <= depth[1]:
-            return f"{other.place}: {other.ros_topic} keeps so few; asked is {topic}"
+            return f"{other.place}: {other.ros_topic} sets this; the task asks for it at {topic}"
     return ""

@@ -156,9 +156,9 @@ def _mixed(wanted: dict[str, str], same: list[str], made: list[Bridged]) -> str:
             and bridge.ros_topic == ros
             and bridge.gz_topic not in same
         ):
-            return f"{bridge.place}: {bridge.gz_topic} arrives on {ros}, too: who listens there hears both mixed"
+            return f"{bridge.place}: {bridge.gz_topic} arrives on {ros}, too: a subscription there receives both, mixed"
         if wanted["direction"] != "GZ_TO_ROS" and bridge.to_gz and bridge.gz_topic == gz and bridge.ros_topic != ros:
-            return f"{bridge.place}: {bridge.ros_topic} goes to {gz}, too: who listens there obeys both"
+            return f"{bridge.place}: {bridge.ros_topic} goes to {gz}, too: whatever subscribes there obeys both"
     return ""
 
 

@@ -29,9 +29,9 @@ def launched_simulator(recording: Recording, parameters: Table) -> Finding:
         error = next((each["error"] for each in facts.get("simulators", []) if each["error"]), "")
         said = error or complaint(recording, "gz sim")
         if not said and "a simulator" in facts.get("refused", []):
-            return Finding(False, expected, "a process that is not gz sim said that it is one; nothing was simulated")
+            return Finding(False, expected, "a process that is not gz sim claimed to be gz sim; nothing was simulated")
         if not said and facts.get("running") and not started(recording):
-            measured = "the launch was at work for so long before it started anything that it was not waited for"
+            measured = "the launch took so long before it started anything that it was ended"
             why = "a Command in it (such as xacro), or its own Python, takes far too long or never ends"
             return Finding(False, expected, measured, explanation=why)
         measured = f"gz sim said: {said}" if said else "no simulator was started"

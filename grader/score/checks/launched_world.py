@@ -31,5 +31,6 @@ def _fixed(recording: Recording, world: str) -> str:
     """Return where the launch file names this world, whatever it is called with; empty if nowhere."""
     for place in recording.facts().get("fixed_worlds", []):
         if place["world"] == world:
-            return f"{place['file']}, line {place['line']}: {world} stands in the command, whatever the argument says"
+            where = f"{place['file']}, line {place['line']}"
+            return f"{where}: {world} is written into the command, whatever the argument says"
     return ""

@@ -85,9 +85,9 @@ def _gz_type(said: str, link: Link, facts: dict[str, Any]) -> str:
     if ROS_TYPE.fullmatch(said) and not said.startswith(("gz/", "ignition/")):
         return f"{said} is a ROS type; in Gazebo {link.gz_topic} has a type of its own, such as gz.msgs.Name"
     if "::" in said:
-        return f"{said} is the name of a class in C++; Gazebo writes the type gz.msgs.Name, with points"
+        return f"{said} is the name of a class in C++; Gazebo writes the type gz.msgs.Name, with dots"
     if not said.startswith("gz.msgs."):
-        return f"{said} is not how Gazebo writes a type: gz.msgs.Name, with points"
+        return f"{said} is not how Gazebo writes a type: gz.msgs.Name, with dots"
     if said in known:
         return f"{said} is carried by another topic of Gazebo, not by {link.gz_topic}"
     return f"{link.gz_topic} does not carry {said} in Gazebo{_spelling(said, link.gz_type)}"
@@ -130,11 +130,11 @@ def _publisher(said: str, link: Link, facts: dict[str, Any]) -> str:
     if name in PROGRAMS or name.endswith(".py"):
         return f"{name} is a program; the node that it runs may have another name: ros2 node list names the nodes"
     if f"/{name}" in facts["ros_topics"]:
-        return f"/{name} is a topic; asked is the node that publishes on {link.ros_topic}"
+        return f"/{name} is a topic; the column asks for the node that publishes on {link.ros_topic}"
     if name.lower() in nodes:
-        return f"no node is called {name}: capitals count in names of nodes, and the name of a class is no node's"
+        return f"no node is called {name}: node names are case-sensitive, and the name of a class is no node's"
     if any(f"/model/{name}/" in topic for topic in facts["gz_topics"]):
-        return f"{name} is a model in Gazebo; asked is the ROS node that publishes on {link.ros_topic}"
+        return f"{name} is a model in Gazebo; the column asks for the ROS node that publishes on {link.ros_topic}"
     return f"no node called {name} is in the ROS graph, whose nodes ros2 node list names; Gazebo itself is not in it"
 
 

@@ -49,7 +49,7 @@ def configured_directions(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
         return ""
     topic = wrong[0][1].ros_topic
     return (
-        f"that is how the bridge of {topic} is configured, open to both sides; asked is which way messages "
+        f"that is how the bridge of {topic} is configured, open to both sides; the column asks which way messages "
         "really travel, and only one side publishes any"
     )
 
@@ -131,7 +131,7 @@ def missing_rows(missing: Sequence[str], links: Sequence[Link], ros: dict[str, A
         return "what travels from ROS to Gazebo goes across, too"
     if set(missing) <= set(silent) and len(missing) > 1:
         return (
-            "the topics without a row are such as no node in ROS listens to; they go across all the same, because the "
+            "no node in ROS listens to the topics without a row; they go across all the same, because the "
             "bridge publishes them"
         )
     return ""

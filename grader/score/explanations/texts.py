@@ -29,7 +29,7 @@ def difference(said: str, wanted: str) -> str:
     if said.strip() == wanted:
         return "the text has white space before or after it"
     if said.startswith(("std_msgs", "b'", "{'data", "data:")) or "String(data=" in said:
-        return "the text is that of a whole message or of bytes: only its words belong into data"
+        return "the text is that of a whole message or of bytes: only its words belong in data"
     plain = unicodedata.normalize("NFKC", said)
     for number in range(1, len(IGNORED) + 1):
         for names in combinations(IGNORED, number):

@@ -20,7 +20,7 @@ ENTRY = """\
         ("gz.msgs.LaserScan", "gz::msgs::LaserScan", "gz::msgs::LaserScan is the name of a class in C++"),
         ("sensor_msgs/msg/", "sensor_msgs::msg::", "writes it with slashes"),
         (": GZ_TO_ROS", ': "["', "[ belongs to the topics on the command line"),
-        ("  direction", "direction", "a line begins in another column"),
+        ("  direction", "direction", "a line is indented differently"),
         (ENTRY, "- /scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan\n", "how a bridge is given on the command line"),
         (": GZ_TO_ROS", ": gz_to_ros", ""),
         (": /scan", ": /scan,", "the , at the end is taken for a part of the value"),

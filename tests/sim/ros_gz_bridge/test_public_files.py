@@ -105,7 +105,7 @@ TAKEN = {
         QUOTED + LASER.replace("gz_t", "ign_t"), 1, ["did you mean 'gz_topic_name'", "'gz_type_name' is mis"], "error"
     ),
     "directions of Fortress": (QUOTED + LASER.replace("GZ_TO", "IGN_TO"), 1, ["'IGN_TO_ROS' is none of"], "error"),
-    "a direction in small letters": (QUOTED + TWIST.replace("ROS_TO_GZ", "ros_to_gz"), 1, ["mean 'ROS_TO"], "error"),
+    "a direction in lower case": (QUOTED + TWIST.replace("ROS_TO_GZ", "ros_to_gz"), 1, ["mean 'ROS_TO"], "error"),
     "no direction after the colon": (QUOTED + TWIST.replace(" ROS_TO_GZ", ""), 1, ["not nothing"], "error"),
     "one name and a name of one side": (
         QUOTED + TWIST.replace("- t", "- gz_topic_name: /b\n  t"), 1, ["exclude each other"], "error"

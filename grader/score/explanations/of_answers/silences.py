@@ -49,7 +49,7 @@ def several_answers(asked: Asked) -> str:
         if np.mean(np.abs(rays[asked.answered] - number) <= 1) >= 0.9 and np.median(number) > 5:
             often = words
     only = "only the last answer is right: " if right.mean() >= 0.9 else ""
-    return f"your node answers each scan {often}; {only}one answer belongs behind the loop over the rays, not into it"
+    return f"your node answers each scan {often}; {only}one answer belongs after the loop over the rays, not in it"
 
 
 @notices

@@ -41,7 +41,7 @@ def in_separate_messages(drive: Drive) -> str:
     return (
         "every other command has linear.x only, and those between have angular.z only: each Twist takes the place "
         "of the "
-        "one before, so both values belong into the same one"
+        "one before, so both values belong in the same one"
     )
 
 
@@ -53,7 +53,7 @@ def one_after_the_other(drive: Drive) -> str:
         return ""
     first, second = ("turns", "drives") if np.argmax(turning) < np.argmax(drive.moving) else ("drives", "turns")
     return (
-        f"your node first {first} and then {second}: linear.x and angular.z belong into the same command, so that the "
+        f"your node first {first} and then {second}: linear.x and angular.z belong in the same command, so that the "
         "robot does both at once"
     )
 

@@ -108,8 +108,8 @@ def weak_turn(drive: Drive) -> str:
         return ""
     strong = float(np.max(values))
     twice = math.degrees(strong)
-    reason = f"; {twice:.2g} in math.radians() gives that: the value was in rad/s already" if twice < 0.35 else ""
-    return f"angular.z was at most {strong:.3g} rad/s: so weak a turn is hardly one{reason}"
+    reason = f"; {twice:.2g} in math.radians() would give that: the value was in rad/s already" if twice < 0.35 else ""
+    return f"angular.z was at most {strong:.3g} rad/s: that is too weak for a turn{reason}"
 
 
 @explains
@@ -136,7 +136,7 @@ def wiggles(drive: Drive) -> str:
         if changes == 1
         else f"{changes} times"
     )
-    return f"the sign of angular.z changes {how}: the robot turns to the left and to the right by turns"
+    return f"the sign of angular.z changes {how}: the robot turns to the left and to the right alternately"
 
 
 @explains

@@ -105,7 +105,7 @@ def unknown_name(error: str, code: str) -> str:
     if place := statement(name):
         return f"the import of {name} is missing: {place}"
     if re.search(rf"\bself\.\w+\([^)]*\b{name}\b", code) or re.search(rf"create_\w+\(.*\b{name}\b", code):
-        return f"no variable or function {name} exists here; a method of the class is handed over as self.{name}"
+        return f"no variable or function {name} exists here; a method of the class is passed as self.{name}"
     if name[:1].isupper() and not name.isupper():
         return f"no class {name} is defined or imported in this file: the name after class, or an import, is another"
     return (

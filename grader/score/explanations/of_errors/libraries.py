@@ -40,7 +40,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"TypeError: only (?:length-1|size-1|0-dimensional) arrays can be converted"),
-        "an array stands where one number belongs: functions of math take one number, those of NumPy (np.cos, "
+        "an array is given where one number is needed: functions of math take one number, those of NumPy (np.cos, "
         "np.isfinite) take arrays",
     ),
     (

@@ -49,7 +49,7 @@ OF_RCLPY = {
 }  # fmt: skip
 OTHER_MODULES = {
     ("time", "now"): "time.time() is the time of the wall clock; simulated time is self.get_clock().now()",
-    ("math", "PI"): "it is math.pi, in small letters",
+    ("math", "PI"): "it is math.pi, in lower case",
     ("math", "deg2rad"): "it is math.radians(degrees)",
     ("math", "rad2deg"): "it is math.degrees(radians)",
     ("math", "abs"): "abs() is built in; math has fabs()",
@@ -116,7 +116,7 @@ def arguments(error: str, code: str) -> str:
         texts = re.search(r"Node\.__init__\(\s*['\"]", code)
         return "called on the class, it needs the node itself first: super().__init__('NODE_NAME')" if texts else ""
     if function == "Node.__init__" and "takes 2" in error:
-        return "super().__init__('NODE_NAME') takes the name only: self is handed over by super() already"
+        return "super().__init__('NODE_NAME') takes the name only: self is passed by super() already"
     if owner not in LIBRARY and function not in FUNCTIONS:
         return ""
     if "missing" in error and method in ("create_subscription", "create_publisher", "create_timer"):
@@ -141,7 +141,7 @@ def own_arguments(error: str, code: str) -> str:
         return ""
     if missing:
         return (
-            f"def {name} has the parameter{'' if ' and ' not in missing else 's'} {missing}, and this call hands over "
+            f"def {name} has the parameter{'' if ' and ' not in missing else 's'} {missing}, and this call passes "
             "no value for it"
         )
     if owner and takes == "0":
@@ -149,9 +149,9 @@ def own_arguments(error: str, code: str) -> str:
     return (
         f"def {name} takes {int(takes) - own} argument{'' if int(takes) - own == 1 else 's'} besides self, and this "
         f"call "
-        f"hands over {int(given) - own}"
+        f"passes {int(given) - own}"
         if owner
-        else f"def {name} takes {takes} argument{'' if takes == '1' else 's'}, and this call hands over {given}"
+        else f"def {name} takes {takes} argument{'' if takes == '1' else 's'}, and this call passes {given}"
     )
 
 

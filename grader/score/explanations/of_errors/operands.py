@@ -24,11 +24,11 @@ NO_CALL = re.compile(r"TypeError: '([\w.]+)' object is not callable")
 INSTEAD = {
     "Parameter": "a parameter's value is its .value: self.get_parameter('NAME').value",
     "Duration": "a Duration is no number: compare a Duration with a Duration, Duration(seconds=5.0) of rclpy.duration, "
-    "or reckon with its .nanoseconds / 1e9, which are seconds",
+    "or calculate with its .nanoseconds / 1e9, which are seconds",
     "Future": "a Future has no result yet: spin until it is done(), then take .result()",
-    "method": "a function stands where its result belongs: brackets are missing behind its name",
-    "function": "a function stands where its result belongs: brackets are missing behind its name",
-    "builtin_function_or_method": "a function stands where its result belongs: brackets are missing behind its name",
+    "method": "a function is given where its result is needed: brackets are missing after its name",
+    "function": "a function is given where its result is needed: brackets are missing after its name",
+    "builtin_function_or_method": "a function is given where its result is needed: brackets are missing after its name",
     "Odometry": "that is the whole message: the position is in .pose.pose.position, the speed in .twist.twist.linear",
     "LaserScan": "that is the whole message: the distances are in its field ranges",
     "Imu": "that is the whole message: its fields are orientation, angular_velocity and linear_acceleration",
@@ -76,8 +76,8 @@ def _pair(sign: str, left: str, right: str) -> str:
 def _times(sign: str, left: str, right: str) -> str:
     if left == right:
         return (
-            "one of the two is the stamp of a message, which cannot be reckoned with: rclpy.time.Time.from_msg(stamp) "
-            "makes a Time of it, and stamp.sec + stamp.nanosec / 1e9 are seconds"
+            "one of the two is the stamp of a message, which cannot be used in calculations: "
+            "rclpy.time.Time.from_msg(stamp) makes a Time of it, and stamp.sec + stamp.nanosec / 1e9 are seconds"
         )
     if sign in "<>=":
         return "a Time is compared with a Time; seconds that have passed are (now - start).nanoseconds / 1e9"
@@ -95,11 +95,11 @@ def _single(kind: str) -> str:
         return "the value is None: it was never set, or it is the result of a function that returns nothing"
     if kind in LISTS:
         return (
-            "a whole list stands where one number belongs: take one element, values[i], or min(values); numpy's "
-            "np.array(values) is reckoned with element by element"
+            "a whole list is given where one number is needed: take one element, values[i], or min(values); numpy's "
+            "np.array(values) is computed element by element"
         )
     if kind == "dict" or kind == "set":
-        return f"a {kind}, {{...}}, stands where a number belongs: take the value out of it"
+        return f"a {kind}, {{...}}, is given where a number is needed: take the value out of it"
     if DATA.match(kind):
         return f"that is the message {kind}, not its value: .data behind it is the value"
     if kind in VECTORS:
@@ -167,15 +167,14 @@ def calls(error: str, code: str) -> str:
     kind = match[1]
     if kind == "NoneType":
         return (
-            "a callback is handed over without brackets, self.on_timer; self.on_timer() calls it at once and hands "
-            "over None"
+            "a callback is passed without brackets, self.on_timer; self.on_timer() calls it at once and hands over None"
         )
     if kind == "module":
         return "that is a module; the function or class in it is called, time.time() or Twist() of geometry_msgs.msg"
     if kind == "Publisher":
         return "a publisher is not called itself: publisher.publish(message); or it has the name of a method"
     if kind == "QoSProfile":
-        return "this profile is an object already: hand it over without brackets"
+        return "this profile is an object already: pass it without brackets"
     if kind == "RcutilsLogger":
         return "the logger is not called itself: self.get_logger().info('text')"
     if kind == "bool" and re.search(r"\bis_(?:cancel_requested|active)\(", code):

@@ -16,22 +16,22 @@ HABITS = (
     (re.compile(r"^(?:print|exec)\s+[^=(]"), "print is a function: print(...)"),
     (re.compile(r"^except\s+\w+\s*,\s*\w+\s*:"), "the error gets its name by as: except Error as name:"),
     (re.compile(r"^(?:if|elif|while)\b[^=]*[^=!<>:]=[^=]"), "= assigns, == compares"),
-    (re.compile(r"\{\s*$|^\}"), "a block is what stands further to the right, below a line that ends in a colon; it "
+    (re.compile(r"\{\s*$|^\}"), "a block is what is indented below a line that ends in a colon; it "
                                 "has "
      "no braces"),
     (re.compile(r"^(?:class|def|if|for|while|import|from|in|is|not|and|or|lambda|global|pass|with|return)\s*=[^=]"),
      "a word of the language cannot be the name of a variable"),
-    (re.compile(r"\bthen\s*:"), "no then stands before the colon"),
+    (re.compile(r"\bthen\s*:"), "there is no then before the colon"),
     (re.compile(r"^global\s+\w+\s*="), "global and the assignment are two lines"),
     (re.compile(r"==="), "== compares; === is no operator"),
     (re.compile(r"<>"), "!= means unequal"),
-    (re.compile(r"^(?:import|from)\s+\w+/"), "parts of a module's name are joined by a point"),
+    (re.compile(r"^(?:import|from)\s+\w+/"), "parts of a module's name are joined by a dot"),
     (re.compile(r"^import\s+\S+\s+from\b"), "the order is from MODULE import NAME"),
     (re.compile(r"^from\s+[\w.]+\s+import\s+\w+\.\w"), "what comes before the point belongs to the module: from "
      "PACKAGE.MODULE import NAME"),
     (re.compile(r"^def\s+\w+\s+\w"), "a name has no spaces: words are joined by _"),
     (re.compile(r"^def\s+\w+\(.*['\"\d]"), "a parameter is a name; its value is given by the call"),
-    (re.compile(r"^def\s+\w+\s*:"), "brackets are missing behind the name of the function"),
+    (re.compile(r"^def\s+\w+\s*:"), "brackets are missing after the name of the function"),
     (
         re.compile(r"^(?:def|class|if|elif|else|for|while|try|except|finally|with)\b[^:]*$"),
         "a colon is missing at the end of the line",
@@ -42,19 +42,19 @@ HABITS = (
     (re.compile(r"\?.*:"), "the choice between two values is  A if CONDITION else B"),
     (re.compile(r"^def\s+\w+\(.*\.\w+.*\)"), "a parameter is a plain name, without self. before it"),
     (re.compile(r"\d+[.,]?\d*\s*(?:m/s|rad/s|m|s|ms|cm|deg)\b"), "numbers have no units in Python"),
-    (re.compile(r"->"), "a field is reached by a point, command.linear.x; -> stands in def only"),
+    (re.compile(r"->"), "a field is reached by a dot, command.linear.x; -> is used in def only"),
     (re.compile(r"//|/\*"), "a comment begins with #"),
 )  # fmt: skip
 WORDS = (
     (re.compile(r"'\(' was never closed|'\[' was never closed|'\{' was never closed"),
      "the bracket that is opened here "
-     "is never closed: the missing one belongs into this line or the next"),
+     "is never closed: the missing one belongs in this line or the next"),
     (re.compile(r"unterminated (?:f-)?string|EOL while scanning"), "the quotes at the end of the text are missing"),
     (re.compile(r"unmatched '[)\]}]'"), "one closing bracket is too many here"),
-    (re.compile(r"cannot assign to function call"), "the value stands on the right of =, the name that gets it on "
+    (re.compile(r"cannot assign to function call"), "the value goes on the right of =, the name that gets it on "
                                                     "the left"),
     (re.compile(r"positional argument follows keyword argument"), "arguments with a name come last"),
-    (re.compile(r"'await' outside async function"), "await stands only in a function that begins with async def"),
+    (re.compile(r"'await' outside async function"), "await is used only in a function that begins with async def"),
     (re.compile(r"'return' outside function"), "by its indentation this line belongs to no function"),
     (re.compile(r"'self' .*|name '\w+' is (?:assigned|used|parameter) .*global"),
      "global names variables of the file, and "

@@ -43,7 +43,7 @@ MEANINGS = (
     (
         re.compile(r"Can't (?:subtract|compare) times with different clock types"),
         "one of the two is of another clock: Time() without clock_type is system time; Time.from_msg(stamp, "
-        "clock_type=self.get_clock().clock_type), or nanoseconds of both, can be reckoned with",
+        "clock_type=self.get_clock().clock_type), or nanoseconds of both, can be used together",
     ),
     (
         re.compile(r"'Parameter' object has no attribute '(\w+)'"),
@@ -82,8 +82,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"(?:Expected|got) <class 'NoneType'>|got <class 'NoneType'>"),
-        "nothing was returned or handed over where a message belongs: the callback of a service ends with return "
-        "response",
+        "nothing was returned or passed where a message belongs: the callback of a service ends with return response",
     ),
     (
         re.compile(r"timer period must be non-negative"),

@@ -116,7 +116,7 @@ def test_an_include_of_anything_else_brings_nothing(served, tmp_path, uri):
         (b"<sdf/>", "asset:" + 64 * "0" + ".sdf", "not what its address says"),
         (b"<sdf/>", "/etc/passwd", "not what its address says"),
         (b" " * (LONGEST_TEXT + 1), None, "MiB is too large"),
-        (b" " * (MOST_BYTES + 1), None, "were handed over"),
+        (b" " * (MOST_BYTES + 1), None, "were passed"),
     ],
 )
 def test_what_is_not_taken_in_is_said(served, tmp_path, data, name, says):

@@ -37,7 +37,7 @@ FAULTY = [
     (["time.sleep(0.5)"], "while it sleeps"),
     (["if any(math.isinf(r) for r in scan.ranges):", "    return"], "leave out the ray"),
     (["if math.inf in scan.ranges:", "    return"], "leave out the ray"),
-    (["v = [r for r in scan.ranges]", "for r in v:", "    self.pub.publish(r)"], "belongs behind the loop"),
+    (["v = [r for r in scan.ranges]", "for r in v:", "    self.pub.publish(r)"], "belongs after the loop"),
     (["def add(x, a=[]):", "    a.append(x)"], "stays in it from call to call"),
     (["least = 0.0", "for r in scan.ranges:", "    if r < least:", "        least = r"], "least begins at 0"),
     (["least = 0", "for r in scan.ranges:", "    if 0.1 < r and least > r:", "        least = r"], "it stays 0"),

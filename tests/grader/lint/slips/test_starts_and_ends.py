@@ -1,4 +1,4 @@
-"""Starts that are set anew in each call, and what stands behind spin()."""
+"""Starts that are set anew in each call, and what comes after spin()."""
 
 import pytest
 
@@ -53,4 +53,4 @@ def test_steps_of_time_are_no_starts():
 
 @pytest.mark.parametrize("behind", ["node.stop()", "node.timer.cancel()"])
 def test_what_is_meant_to_end_the_drive_does_not_run_behind_spin(behind):
-    assert any("stands behind spin()" in each for each in said(behind=behind))
+    assert any("comes after spin()" in each for each in said(behind=behind))

@@ -74,7 +74,7 @@ WRONG = {
     "self.move(1) is called at once": ("PERIOD, self.tick)",
      "PERIOD, self.move(1))\n\n    def move(self, x):\n        self.x = x"),
     "self.publisher.publish(Twist()) is called at once": ("self.tick)", "self.publisher.publish(Twist()))"),
-    "'tick' stands where the callback belongs": ("self.tick)", "'tick')"),
+    "'tick' is given where the callback is needed": ("self.tick)", "'tick')"),
     "makes a coroutine that nobody awaits": ("        best = 9.0",
      "        best = 9.0\n        self.wait()\n\n    async def wait(self):\n        pass\n"),
     # waiting.py
@@ -134,7 +134,7 @@ WRONG = {
      "            stop = Twist()\n            stop.linear.x = 0.0"),
     "is always true, because 'turn' is": ("elapsed < SECONDS", "self.state == 'go' or 'turn'"),
     "rclpy.ok without brackets": ("elapsed < SECONDS", "rclpy.ok"),
-    "which ends in its first round": ("        return best", "            return best"),
+    "which ends in its first iteration": ("        return best", "            return best"),
     "takes the name away, and the timer goes on": ("self.done = True", "self.timer = None"),
     "begins the period anew": ("self.done = True", "self.timer.reset()"),
 }  # fmt: skip

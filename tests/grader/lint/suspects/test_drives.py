@@ -50,7 +50,7 @@ WRONG = {
     "command=Twist() is made once": (
         "endless", ("tick(self)", "tick(self, command=Twist())"), ("        command = Twist()\n", ""),
     ),
-    "stands behind the condition of line 14": (
+    "comes after the condition of line 14": (
         "endless", ("            command.linear.x", "            pass\n        command.linear.x"),
     ),
     "go is one message for all calls": (

@@ -105,7 +105,10 @@ def test_messages_of_another_topic_must_not_arrive_at_the_same_place(found):
     other = SCAN | {"source": "bridge.yaml:20", "gz_topic": "/lidar2"}
     mixed = found(SCAN, other)
     assert not mixed.passed
-    assert mixed.measured == "bridge.yaml, line 20: /lidar2 arrives on /scan, too: who listens there hears both mixed"
+    assert (
+        mixed.measured
+        == "bridge.yaml, line 20: /lidar2 arrives on /scan, too: a subscription there receives both, mixed"
+    )
     assert found(SCAN, other, same=["/lidar2"]).passed, "the same messages under another name"
     assert found(SCAN, other | {"to_ros": 0}).passed, "nothing came of it"
     assert found(SCAN, SCAN | {"ros_topic": "/laser"}).passed, "one topic may go to many places"
@@ -209,7 +212,7 @@ def test_another_bridge_that_keeps_so_few_is_named(record):
     other = SCAN | {"ros_topic": "/image", "publisher_qos": RELIABLE | {"depth": 1}}
     table = Table({"ros_topic": "/scan", "depth": [1, 1], "at_least": 5}, "check 'it'")
     finding = bridge_qos(record(facts={"bridges": [SCAN, other]}), table)
-    assert finding.explanation == "bridge.yaml, line 6: /image keeps so few; asked is /scan"
+    assert finding.explanation == "bridge.yaml, line 6: /image sets this; the task asks for it at /scan"
 
 
 def test_the_topic_of_another_model_is_told_by_its_name(record):

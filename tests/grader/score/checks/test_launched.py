@@ -67,7 +67,7 @@ def test_a_good_launch_passes(find, kind):
         ({"simulators": [], "lines": [STARTED]}, "no simulator was started"),
         (
             {"simulators": []},
-            "the launch was at work for so long before it started anything that it was not waited for",
+            "the launch took so long before it started anything that it was ended",
         ),
         ({"simulators": [SIMULATOR | {"ran": False, "error": "no such world"}]}, "gz sim said: no such world"),
         (
@@ -239,7 +239,7 @@ def test_arguments_of_other_names_and_worlds_that_stand_in_the_command_are_named
     trial = json.dumps({"parameters": {"world": "b.sdf"}})
     for facts, words in (
         ({"declared": [place | {"name": "file"}, place | {"name": "paused"}]}, "no argument called world; it declares"),
-        ({"fixed_worlds": [place | {"world": "a.sdf"}]}, "a.launch.py, line 7: a.sdf stands in the command"),
+        ({"fixed_worlds": [place | {"world": "a.sdf"}]}, "a.launch.py, line 7: a.sdf is written into the command"),
         ({"fixed_worlds": [place | {"world": "c.sdf"}], "declared": [place | {"name": "world"}]}, ""),
     ):
         recording = record(facts={"launch": GOOD} | facts, trial_parameters=trial)

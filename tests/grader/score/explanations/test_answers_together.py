@@ -56,7 +56,7 @@ def test_a_timer_that_answers_with_the_scan_it_has_is_named_alone():
         (lambda scan, kept: min(valid(scan)) if min(valid(scan)) > 0.8 else None, "is above about 0.8"),
         (
             lambda scan, kept: list(valid(scan)),
-            "each scan once for every valid ray; one answer belongs behind the loop",
+            "each scan once for every valid ray; one answer belongs after the loop",
         ),
         (lambda scan, kept: list(itertools.accumulate(valid(scan), min)), "only the last answer is right"),
     ],

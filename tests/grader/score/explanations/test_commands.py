@@ -63,7 +63,7 @@ WRONG = {
     "are swapped": drive(lambda now, calls: right(now, calls)[::-1]),
     "all 32 commands were zero": drive(lambda now, calls: STOP),
     "0.40 m/s where": drive(scaled(0.8, 1)),
-    "so weak a turn": drive(scaled(1, 0.1)),
+    "too weak for a turn": drive(scaled(1, 0.1)),
     "your node counts ticks": drive(lambda now, calls: GO if calls < 25 else STOP, period=0.2),
     "ticks of the timer were counted as seconds": drive(lambda now, calls: GO if calls < 5 else STOP, period=0.5),
     "and not one stops it": drive(lambda now, calls: GO),

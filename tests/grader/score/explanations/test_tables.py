@@ -65,7 +65,7 @@ def test_a_right_column_and_an_empty_one_have_none(column):
 @pytest.mark.parametrize(
     ("missing", "words"),
     [
-        (["/imu", "/joints"], "such as no node in ROS listens to"),
+        (["/imu", "/joints"], "no node in ROS listens to"),
         (["/cmd"], "what travels from ROS to Gazebo"),
         (["/scan", "/imu"], ""),
         ([], ""),
