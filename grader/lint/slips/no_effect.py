@@ -153,8 +153,8 @@ def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
         yield from _alternatives(part)
 
 
-def first_round(tree: ast.AST) -> Iterator[Place]:
-    """Find a return at the end of the body of a loop that collects something: it ends the loop in its first iteration."""
+def first_iteration(tree: ast.AST) -> Iterator[Place]:
+    """Find a return at the end of the body of a loop that collects something: the loop ends at once."""
     for function in functions(tree):
         for node in ast.walk(function):
             if not isinstance(node, ast.For) or not isinstance(node.body[-1], ast.Return):
@@ -221,5 +221,11 @@ def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
 
 
 LOOKS = (
-    thrown_away, signs_for_operators, always_true, first_round, timers_that_go_on, never_sent, changed_after_publish,
-)  # fmt: skip
+    thrown_away,
+    signs_for_operators,
+    always_true,
+    first_iteration,
+    timers_that_go_on,
+    never_sent,
+    changed_after_publish,
+)
