@@ -34,8 +34,8 @@ def no_return(tree: ast.AST) -> Iterator[Place]:
             ):
                 yield (
                     empty[name].lineno,
-                    f"{name} returns nothing, so {ast.unparse(used)[:40]} in line {used.lineno} is None: return hands "
-                    "the result over",
+                    f"{name} returns nothing, so {ast.unparse(used)[:40]} in line {used.lineno} is None: return "
+                    "gives the result back",
                 )
                 return
 

@@ -120,6 +120,10 @@ SLIPS = {
     "self.over without brackets is the method itself": (
         OVER.format("return t > 5").replace("self.over()", "self.over"), OVER.format("return t > 5"),
     ),
+    "self.done without brackets is the method itself": (
+        "class N:\n    def done(self): return 1\n    def tick(self):\n        return self.done and self.near\n",
+        "class N:\n    def done(self): return 1\n    def tick(self, call=None):\n        return call or self.done\n",
+    ),
     "self.halt without brackets names the function": (
         "class N:\n    def halt(self): go()\n    def tick(self):\n        self.halt\n",
         "class N:\n    def halt(self): go()\n    def tick(self):\n        self.halt()\n",
