@@ -84,7 +84,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"there is no program 'xacro/"),
-        "Command joins its parts as they are, and the space behind xacro is missing: ['xacro ', path]",
+        "Command joins its parts as they are, and the space after xacro is missing: ['xacro ', path]",
     ),
     (
         re.compile(r"'LaunchConfiguration' object has no attribute '(?!perform)(\w+)'"),

@@ -144,7 +144,7 @@ def parameters_for_what_follows(file: LaunchFile) -> Iterator[Place]:
             if kind in ("SetParameter", "SetUseSimTime", "SetRemap", "PushRosNamespace") and behind and action:
                 yield (
                     action.lineno,
-                    f"{kind} reaches only the actions behind it in the list, and all nodes stand before it",
+                    f"{kind} reaches only the actions after it in the list, and all nodes come before it",
                 )
 
 
@@ -237,7 +237,7 @@ def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
         if programs:
             yield (
                 call.lineno,
-                f"{last_name(call.func)} reaches the Node actions behind it alone; the ExecuteProcess in line "
+                f"{last_name(call.func)} reaches only the Node actions after it; the ExecuteProcess in line "
                 f"{programs[0].lineno} gets no parameters but those in its own command",
             )
 
@@ -267,7 +267,7 @@ def glued_parts(file: LaunchFile) -> Iterator[Place]:
                     yield (
                         one.lineno,
                         f"a space is missing at the end of {said!r}: launch joins the parts of a list without spaces, "
-                        "so the value behind it becomes a part of the option",
+                        "so the value after it becomes a part of the option",
                     )
 
 

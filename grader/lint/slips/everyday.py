@@ -92,7 +92,7 @@ def long_sleeps(tree: ast.AST) -> Iterator[Place]:
             if seconds is not None and seconds >= LONGEST_PERIOD and published:
                 yield (
                     call.lineno,
-                    f"{ast.unparse(call)} takes seconds: what is behind it runs only after {seconds / 60:.0f} minutes; "
+                    f"{ast.unparse(call)} takes seconds: what follows runs only after {seconds / 60:.0f} minutes; "
                     f"{seconds:g} ms are {seconds / 1000:g}",
                 )
 

@@ -26,7 +26,7 @@ def before_it_is_sent(tree: ast.AST) -> Iterator[Place]:
                     yield (
                         statement.lineno,
                         f"{ast.unparse(statement)[:60]} comes before line {line}, which sends {name}: what was found "
-                        "is lost; set it back behind that line, or at the beginning of the function",
+                        "is lost; set it back after that line, or at the beginning of the function",
                     )
                     return
 

@@ -168,7 +168,7 @@ def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
             executor = ast.unparse(call.func.value)
             yield (
                 call.lineno,
-                f"{executor} gets a node here, but nothing lets it work: {executor}.spin() is missing behind it",
+                f"{executor} gets a node here, but nothing lets it work: {executor}.spin() is missing after it",
             )
 
 

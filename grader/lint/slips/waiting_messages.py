@@ -168,7 +168,7 @@ def first_for_ever(tree: ast.AST) -> Iterator[Place]:
             yield (
                 line,
                 f"only the oldest message, {kept}, is asked for, and it leaves when its transform is there; that of "
-                "the very first message is older than all transforms and never comes, so all others wait behind it: "
+                "the very first message is older than all transforms and never comes, so all others wait for it: "
                 "ask for each, or drop what is too old",
             )
 

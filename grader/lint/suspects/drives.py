@@ -144,7 +144,7 @@ def falls_through(tree: ast.AST) -> Iterator[Suspect]:
                     stops[0].lineno,
                     "again",
                     f"the stop is published here, and then the same call goes on to line {behind[0].lineno}, which "
-                    "publishes the drive: return behind the stop, or put the drive into an else",
+                    "publishes the drive: return after the stop, or put the drive into an else",
                 )
 
 

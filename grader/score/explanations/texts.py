@@ -109,7 +109,7 @@ def line_difference(lines: Sequence[str], wanted: str) -> str:
     start = next((i for i, (a, b) in enumerate(zip(form, asked, strict=False)) if a != b), min(len(form), len(asked)))
     if form == asked:
         return ""
-    where = f"behind {''.join(form[max(0, start - 4) : start]).strip()!r}" if start else "at its beginning"
+    where = f"after {''.join(form[max(0, start - 4) : start]).strip()!r}" if start else "at its beginning"
     has = f"has {_shortly(form[start:])!r}" if start < len(form) else "ends"
     if start == len(asked):
         return f"{where} the line {has}, where it should end (N and N.NN stand for numbers)"

@@ -135,7 +135,7 @@ ERRORS = {
     ("TypeError: unsupported operand type(s) for -: 'Time' and 'Time'", "now - msg.header.stamp"): "Time.from_msg",
     ("TypeError: unsupported operand type(s) for /: 'Duration' and 'float'", "d / 1e9"): "nanoseconds / 1e9",
     ("TypeError: unsupported operand type(s) for *: 'Parameter' and 'int'", "p * 2"): "is its .value",
-    ("TypeError: unsupported operand type(s) for *: 'Float32' and 'int'", "m * 2"): ".data behind it",
+    ("TypeError: unsupported operand type(s) for *: 'Float32' and 'int'", "m * 2"): ".data is the value",
     ("TypeError: '<' not supported between instances of 'int' and 'str'", "a < b"): "float(text) makes a number",
     ("TypeError: '<' not supported between instances of 'array.array' and 'float'", "r < 1.0"): "take one element",
     ("TypeError: '>' not supported between instances of 'tuple' and 'int'", "t > 5"): "take one element",

@@ -101,7 +101,7 @@ def _single(kind: str) -> str:
     if kind == "dict" or kind == "set":
         return f"a {kind}, {{...}}, is given where a number is needed: take the value out of it"
     if DATA.match(kind):
-        return f"that is the message {kind}, not its value: .data behind it is the value"
+        return f"that is the message {kind}, not its value: .data is the value"
     if kind in VECTORS:
         return f"that is a whole {kind}: take one of its numbers, such as .x"
     if kind == "Time":

@@ -187,7 +187,7 @@ def test_a_world_that_stands_in_a_command_is_found():
 @pytest.mark.parametrize(
     ("listed", "words"),
     [
-        ("Node(executable='a'), SetParameter('use_sim_time', True)", "SetParameter reaches only the actions behind it"),
+        ("Node(executable='a'), SetParameter('use_sim_time', True)", "SetParameter reaches only the actions after it"),
         ("SetParameter('use_sim_time', True), Node(executable='a')", ""),
         ("Node(executable='a'), SetParameter('use_sim_time', True), *others", ""),
     ],

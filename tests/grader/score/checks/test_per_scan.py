@@ -143,7 +143,7 @@ def test_lines_of_another_form_are_quoted_and_not_taken_for_silence(scanned):
 
 def test_a_line_of_another_form_is_compared_with_an_example(scanned):
     finding = per_scan(scanned(lines=logged("avg: 1.50m")), LOG | {"line": "avg=4.56m"})
-    assert finding.explanation.startswith("behind 'avg' the line has ': N.NNm', where '=N.NNm' is asked for")
+    assert finding.explanation.startswith("after 'avg' the line has ': N.NNm', where '=N.NNm' is asked for")
     assert per_scan(scanned(lines=logged("avg=1.50m")), LOG | {"line": "avg=4.56m"}).explanation == ""
 
 

@@ -66,14 +66,14 @@ def test_the_way_of_too_many_messages_is_named(times, words):
     [
         (
             ["Scan: 301 valid rays, min: 1.57m, avg: 2.86m"],
-            "behind 'rays, min' the line has ': N.NNm', where '=N.NNm,'",
+            "after 'rays, min' the line has ': N.NNm', where '=N.NNm,'",
         ),
         (
             ["Scan: 301.0 valid rays, min=1.57m, avg=2.86m"],
-            "behind 'Scan:' the line has 'N.NN valid', where 'N valid'",
+            "after 'Scan:' the line has 'N.NN valid', where 'N valid'",
         ),
         (["301 valid rays, min=1.57m, avg=2.86m"], "at its beginning the line has 'N valid"),
-        (["Scan: 301 valid rays, min=inf, avg=2.86m"], "behind 'min=N.NN' the line has ', avg=', where 'm, avg'"),
+        (["Scan: 301 valid rays, min=inf, avg=2.86m"], "after 'min=N.NN' the line has ', avg=', where 'm, avg'"),
         (["Scan: 301 valid rays, min=1.57m, avg=2.86"], "the line ends, where 'm' is asked for"),
         (["Scan: 301 valid rays, min=1.57m, avg=2.86m!"], "has '!', where it should end"),
         (["Scan: 301 valid rays", "min=1.57m", "avg=2.86m"], "spread over several"),
