@@ -8,7 +8,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.lint.syntax import last_name
@@ -16,16 +15,6 @@ from gz_course.grader.lint.syntax import last_name
 SIM_TIME = "use_sim_time"
 OPTION = re.compile(r"--?[a-zA-Z]")
 DETACH = frozenset({"setsid", "nohup", "disown", "tmux", "screen", "&"})
-HEADINGS = frozenset({"yaw", "heading", "theta", "rotation", "angle", "direction"})
-# Source: https://github.com/gazebosim/ros_gz, ros_gz_sim/src/create.cpp
-AXES = {
-    "-x": "the place along x",
-    "-y": "the place along y",
-    "-z": "the height",
-    "-R": "roll, the turn about the axis that points ahead",
-    "-P": "pitch, the turn about the axis that points to the left",
-    "-Y": "yaw, the turn about the vertical axis, which is the heading",
-}
 STARTS_NODES = frozenset({"?", "Node", "LifecycleNode", "GroupAction", "IncludeLaunchDescription", "OpaqueFunction"})
 
 
@@ -292,33 +281,8 @@ def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def _flat(words: list[ast.expr]) -> list[ast.expr]:
-    """Return the words of a command, those of `*("-x", x)` among them."""
-    inside = (each.value if isinstance(each, ast.Starred) else each for each in words)
-    found = (_flat(each.elts) if isinstance(each, ast.Tuple | ast.List) else [each] for each in inside)
-    return [each for part in found for each in part]
-
-
-def axes_of_create(file: LaunchFile) -> Iterator[Place]:
-    """Find an option of create of ros_gz_sim that is given the launch argument of another one."""
-    for call in file.calls("Node"):
-        given = file.value(argument(call, "arguments"))
-        if text(argument(call, "executable", 0)) != "create" or not isinstance(given, ast.List | ast.Tuple):
-            continue
-        words = _flat(given.elts)
-        for option, value in pairwise(words):
-            flag, name = text(option), file.configuration(value)
-            right = f"-{name}" if name in ("x", "y", "z") else "-Y" if name in HEADINGS else ""
-            if flag in AXES and right and flag != right:
-                yield (
-                    option.lineno,
-                    f"create takes {flag} for {AXES[flag]}, and here it gets the launch argument {name}: {right} is "
-                    f"{AXES[right]}",
-                )
-
-
 LOOKS = (
-    axes_of_create, glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
+    glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
     sim_time_for_others, arguments_for_nobody, detached, parameters_in_the_environment, files_as_topics,
     variables_of_the_shell, parameters_for_what_follows,
 )  # fmt: skip

@@ -30,7 +30,7 @@ def _attributes(node: ast.AST, context: type[ast.expr_context]) -> dict[str, int
 def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
     """Find `done = True` where `self.done` was meant: the local variable is never read, the attribute is."""
     for owner in _classes(tree):
-        read, never_set = _attributes(owner, ast.Load), _only_none(owner)
+        read, never_set = _attributes(owner, ast.Load), _never_changed(owner)
         for method in _methods(owner):
             kept = {
                 name for node in ast.walk(method) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
@@ -50,16 +50,17 @@ def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
-def _only_none(owner: ast.ClassDef) -> set[str]:
-    """Return the attributes that are set to None in `__init__` and to nothing else anywhere."""
-    found: dict[str, bool] = {}
+def _never_changed(owner: ast.ClassDef) -> set[str]:
+    """Return the attributes that are set to None, True or False once, in `__init__`, and to nothing else anywhere."""
+    found: dict[str, list[str]] = {}
     for node in ast.walk(owner):
         for target in node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]:
             for each in ast.walk(target) if isinstance(target, ast.expr) else ():
                 if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self":
-                    none = isinstance(node, ast.Assign) and ast.unparse(node.value) == "None"
-                    found[each.attr] = found.get(each.attr, True) and none
-    return {name for name, none in found.items() if none}
+                    value = ast.unparse(node.value) if isinstance(node, ast.Assign) else ""
+                    found.setdefault(each.attr, []).append(value)
+    flags = {name for name, values in found.items() if values in (["True"], ["False"])}
+    return flags | {name for name, values in found.items() if set(values) == {"None"}}
 
 
 def hidden_methods(tree: ast.AST) -> Iterator[Place]:

@@ -23,6 +23,8 @@ class Greeter:
         ("self.calls", "self.calls"),
         ("self.calls += 1", "self.calls = self.calls + 1"),
         ("== 1", ">= 2 - 1"),
+        ("== 1", "== round(1.1 / 1)"),
+        ("== 1", "== int(1.9)"),
     ],
 )
 def test_a_comparison_above_the_increase_is_a_place(old, new):

@@ -100,6 +100,8 @@ def test_a_right_file_has_none():
             "only when gz sim has ended",
         ),
         ('["-name", "robot"]', '["-x", world, "-Y", LaunchConfiguration("yaw")]', ""),
+        ('["-name", "robot"]', '["-world", "yard"]', "create waits for the world yard alone"),
+        ('["-name", "robot"]', '["-world", world]', ""),
         ('["-name", "robot"]', '["-R", LaunchConfiguration("yaw")]', "-Y is yaw"),
         ('["-name", "robot"]', '[*("-Y", LaunchConfiguration("y"))]', "-y is the place along y"),
         ('["-name", "robot"]', '["-y", LaunchConfiguration("x")]', "here it gets the launch argument x: -x is"),

@@ -100,6 +100,9 @@ WRONG = {
     "is a variable of the class": ("            self.done = True", "            Teleop.done = True"),
     "start = ... makes a variable of tick alone": ("            self.start = now",
      "            start = now\n            print(start)"),
+    "done = ... makes a variable of tick alone": (
+        "            self.done = True", "            done = True\n            print(done)",
+    ),
     # not_what_they_seem.py
     "can be gone through once only, which line": (
         "        best = 9.0", "        valid = (r for r in ranges if r > 0)\n        print(len(list(valid)))\n      "
