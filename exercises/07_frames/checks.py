@@ -271,6 +271,8 @@ def predictions(recording, found, truth):
     written = mounted(*PUBLIC_MOUNT, count)
     flat = truth * (1, 1, 0)
     before = robot.of(np.concatenate([np.full((1, 3), np.nan), on_robot[:-1]]))
+    newest = np.searchsorted(found.arrived, found.answered + SAME) - 1  # scan, when the point was published
+    newer = np.where((newest > np.arange(count))[:, None], robot.of(on_robot[np.maximum(newest, 0)]), np.nan)
     yield "in the scanner's own frame: nothing was transformed", hits
     yield "in the frame of the robot: the transform from the robot to odom is missing", on_robot
     yield "those of a scanner in the robot's middle, looking ahead: the scanner's mount is missing", robot.of(hits)
@@ -305,6 +307,7 @@ def predictions(recording, found, truth):
         side = "before" if shift > 0 else "after"
         yield f"those of the transform {abs(shift):.2f} s {side} the scan's stamp", at(found.stamps - shift)
     yield "the hit of the scan before, moved by the transform of this scan", before
+    yield "the hits of the scan that has just come, moved by the transform of one that waited: use the one scan", newer
     yield "right on the floor plan, but z is 0: a point in odom is as high as the scanner", flat
     upright = robot.of(mount.flat().of(hits))
     yield "those of an upright scanner: its rotation is more than a heading, use the quaternion", upright

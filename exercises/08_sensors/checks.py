@@ -169,6 +169,11 @@ def why_misplaced(recording, points, stamps, right):
                 return "the points lie at the blue posts: red and blue are swapped (rgb8 and bgr8)"
             return f"the points lie at the {colour} posts, too: your rule for red holds for {colour}"
     start = tuple(np.full(len(x), each[0]) for each in pose(recording, np.zeros(1)))
+    here, camera = (at[0], at[1], start[2]), placed(at, np.zeros(len(x)), np.zeros(len(x)))
+    turned = (
+        "the points are turned by the robot's heading; point.x is how far ahead of the camera a post is and point.y "
+        "how far to its left, whatever the heading: only the list of posts needs it"
+    )
     candidates = (
         ((x, -y, at), "left and right are swapped: columns grow to the right, y grows to the left"),
         ((z, -x, at), "the points are those of an optical frame (x right, y down, z ahead)"),
@@ -176,6 +181,8 @@ def why_misplaced(recording, points, stamps, right):
         ((-y, x, at), "x and y are swapped: x is ahead, y is to the left"),
         ((x, y * math.pi / 180, at), "y comes from an angle in degrees, where radians are needed"),
         ((x - CAMERA_AHEAD, y, start), "the points are places in the hall, seen from the start, not from the camera"),
+        ((x - CAMERA_AHEAD, y, here), turned),
+        ((x - CAMERA_AHEAD, y, (camera[:, 0], camera[:, 1], start[2])), turned),
     )
     for (ahead, left, where), words in candidates:
         if fits(ahead, left, where):

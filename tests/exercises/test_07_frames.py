@@ -108,6 +108,14 @@ def test_every_misconception_is_named(monkeypatch):
         assert any(near in finding.explanation for near in (words, *alike)), (words, finding.explanation)
 
 
+def test_the_hit_of_the_scan_that_has_just_come_is_no_hit_of_one_that_waited():
+    run = Run()
+    scans = CHECKS["scans"](run)
+    hits = np.concatenate([scans.hits[1:], scans.hits[-1:]])
+    run.answer(CHECKS["odom"](run, scans.stamps).of(scans.mount.of(hits)), late=0.12)
+    assert "the hits of the scan that has just come" in run.places().explanation
+
+
 @pytest.mark.parametrize(
     ("stamps", "words"),
     [

@@ -112,6 +112,28 @@ def test_wrong_points_are_named(hall, words):
     assert not finding.passed and words in finding.explanation + finding.expected, finding
 
 
+@pytest.mark.parametrize("of_the_camera", [0.0, 0.12])
+def test_points_that_are_turned_by_the_heading_are_named(of_the_camera):
+    hall = Hall()
+    now, yaw = hall.signals["truth/robot/yaw"]
+    x = -0.1 * now  # it rolls back while it turns
+    hall.signals["truth/robot/x"] = (now, x)
+    points = []
+    for at in np.arange(2.0, 9.0, 0.2):
+        here = float(np.interp(at, now, x)), 0.0, float(np.interp(at, now, yaw))
+        ahead, left = CHECKS["before_camera"](here, POSTS["red_1"])
+        ahead, heading = ahead - CHECKS["RADIUS"] + of_the_camera, here[2]
+        points.append(
+            (at, ahead * np.cos(heading) - left * np.sin(heading), ahead * np.sin(heading) + left * np.cos(heading))
+        )
+    times, *there = np.array(points).T
+    for axis, values in zip("xyz", (*there, 0 * times), strict=True):
+        hall.signals[f"topics/red_post/point/{axis}"] = (times, values)
+    hall.signals["topics/red_post/header/stamp"] = (times, times)
+    finding = hall.found("places_the_posts")
+    assert "turned by the robot's heading" in finding.explanation, finding
+
+
 @pytest.mark.parametrize(
     ("count", "words"),
     [

@@ -103,6 +103,9 @@ SLIPS = {
     "adds the whole time since self.start in every call": (
         ADDED.format("+=", ""), ADDED.format("+=", "        self.start = now"),
     ),
+    "adds the whole time since self.start in": (
+        ADDED.format("+=", ""), ADDED.format("+=", "").replace("now", "rate").replace("clock()", "message.z"),
+    ),
     "forgets what was found": (SEARCH.format("        else:\n            best = 9.0"), SEARCH.format("")),
     "r < near[0] compares with the first value each time": (
         "for r in near:\n    if r < near[0]:\n        best = r\n",
