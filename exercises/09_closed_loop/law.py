@@ -29,9 +29,14 @@ def unchanging(values):
     found, counts = np.unique(np.round(values, 3), return_counts=True)
     if len(values) < FEWEST or counts.max() < 0.95 * len(values):
         return ""
+    if abs(usual := found[counts.argmax()]) > 0.95 * LIMIT:
+        return (
+            f"angular.z is at its limit, {usual:.2f} rad/s, in nearly every command, whatever the lidar sees: the "
+            "error that it is made of is never small and never changes its sign; log that error, and look at its unit"
+        )
     return (
-        f"angular.z is {found[counts.argmax()]:.2f} rad/s in nearly every command, whatever the lidar sees: it is made "
-        "of one scan, such as the first, or of something that does not change"
+        f"angular.z is {usual:.2f} rad/s in nearly every command, whatever the lidar sees: what it is made of does not "
+        "change with the scans"
     )
 
 
