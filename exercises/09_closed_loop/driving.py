@@ -43,8 +43,8 @@ def straight_on(run):
             continue  # it comes nearer at an angle
         return (
             f"from {times[start]:.1f} s on angular.z was 0 for {times[end] - times[start]:.1f} s, and the wall was "
-            f"{min(there, then):.2f} m away or more: turn towards the wall there, to the {run.side}, as at a corner that "
-            "turns outwards; only past gaps of up to 20 cm the robot drives straight on"
+            f"{min(there, then):.2f} m away or more: turn towards the wall there, to the {run.side}, as at a corner "
+            "that turns outwards; only past gaps of up to 20 cm the robot drives straight on"
         )
     return ""
 
@@ -100,3 +100,23 @@ def zero_rays(run, times, bearings, ranges):
     if np.isinf(ranges[:, side]).any(axis=1).mean() < 0.02:
         return ""
     return suspect(run.recording, "zero")
+
+
+def counted_turns(run):
+    """Find out whether the robot turns on the spot for longer than any corner needs."""
+    command = run.recording.signal("topics/cmd_vel/angular/z")
+    speed = run.recording.signal("topics/cmd_vel/linear/x").values
+    if len(speed) != len(command.values) or not len(speed):
+        return ""
+    spinning = (np.abs(speed) < 0.01) & (np.abs(command.values) > 0.3)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], spinning, [False]]).astype(int)))
+    times = command.times / 1e9
+    for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
+        turned = float(np.abs(command.values[start]) * (times[end] - times[start]))
+        if turned > 2.4 and np.ptp(command.values[start : end + 1]) < 1e-6:
+            return (
+                f"from {times[start]:.1f} s on the robot turned on the spot for {times[end] - times[start]:.1f} s, by "
+                f"{turned:.1f} rad: a turn that is counted in ticks lasts longer where ticks are missed; ask "
+                "the clock, or the lidar"
+            )
+    return ""

@@ -30,11 +30,13 @@ def explain(run):
         DRIVING["speed_by_distance"],
         lambda run: DRIVING["silent"](run, scans(run)[0]),
         unchanging,
+        one_way,
         late,
         opposite,
         without_sign,
         deaf,
         kept_beside,
+        offset,
         gaps,
         DRIVING["straight_on"],
         added,
@@ -43,7 +45,7 @@ def explain(run):
         nearest_anywhere,
         integrated,
         measures,
-        counted_turns,
+        DRIVING["counted_turns"],
         stopped,
         old_distance,
         wrong_sign,
@@ -53,8 +55,10 @@ def explain(run):
         weak,
         against_a_wall,
         elsewhere,
-        slow,
+        DRIVING["slow"],
     )
+    if len(scans(run)[0]):
+        run.lag = STEERING["lag"](run, *scans(run))
     return next((said for look in looks if (said := look(run))), "")
 
 
@@ -124,15 +128,30 @@ def unchanging(run):
     share = (np.abs(values) > 1.45).mean() if len(values) else 0.0
     if share > 0.3 and (why := suspect(run.recording, "unit")):
         return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
-    said = LAW["unchanging"](values)
-    why = suspect(run.recording, "first_kept") if said else ""
+    said = LAW["unchanging"](run, values)
+    why = suspect(run.recording, "first_kept", "farthest") if said else ""
     return f"{said.partition(':')[0]}: {why}" if why else said
+
+
+def one_way(run):
+    return LAW["one_way"](run, *point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
 def late(run):
     """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
     why = suspect(run.recording, "delay", "farthest")
-    return why or (LAW["late"](*point_and_rates(run)) if len(scans(run)[0]) else "")
+    return why or (LAW["late"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else "")
+
+
+def moving(run):
+    """Return at which of the answered scans the robot moves."""
+    times = scans(run)[0]
+    speed = np.interp(times, run.times, np.abs(run.speed)) + 0.2 * np.interp(times, run.times, np.abs(run.turning))
+    return speed[STEERING["answered"](run, times)[0]] > 0.03
+
+
+def offset(run):
+    return LAW["offset"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else ""
 
 
 def opposite(run):
@@ -149,10 +168,6 @@ def deaf(run):
 
 def kept_beside(run):
     return LAW["kept_beside"](run, SETTLED)
-
-
-def slow(run):
-    return DRIVING["slow"](run)
 
 
 def in_degrees(run):
@@ -379,23 +394,3 @@ def nearest_anywhere(run):
         f"at {times[first]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
         f"{on_other[first]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
     )
-
-
-def counted_turns(run):
-    """Find out whether the robot turns on the spot for longer than any corner needs."""
-    command = run.recording.signal("topics/cmd_vel/angular/z")
-    speed = run.recording.signal("topics/cmd_vel/linear/x").values
-    if len(speed) != len(command.values) or not len(speed):
-        return ""
-    spinning = (np.abs(speed) < 0.01) & (np.abs(command.values) > 0.3)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], spinning, [False]]).astype(int)))
-    times = command.times / 1e9
-    for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
-        turned = float(np.abs(command.values[start]) * (times[end] - times[start]))
-        if turned > 2.4 and np.ptp(command.values[start : end + 1]) < 1e-6:
-            return (
-                f"from {times[start]:.1f} s on the robot turned on the spot for {times[end] - times[start]:.1f} s, by "
-                f"{turned:.1f} rad: a turn that is counted in ticks lasts longer where ticks are missed; ask "
-                "the clock, or the lidar"
-            )
-    return ""
