@@ -24,14 +24,39 @@ def opposite(run, point, rates, asked):
     )
 
 
-def unchanging(values):
+def unchanging(run, values):
     """Return whether nearly all commands [rad/s] are the same, whatever the lidar saw; empty if not."""
     found, counts = np.unique(np.round(values, 3), return_counts=True)
     if len(values) < FEWEST or counts.max() < 0.95 * len(values):
         return ""
+    mirrored = ", and at its sign: the bearings of rays on the right are negative" if run.side == "right" else ""
+    if abs(usual := found[counts.argmax()]) > 0.95 * LIMIT:
+        return (
+            f"angular.z is at its limit, {usual:.2f} rad/s, in nearly every command, whatever the lidar sees: the "
+            "error that it is made of is never small and never changes its sign; log that error, and look at its unit"
+            f"{mirrored}"
+        )
     return (
-        f"angular.z is {found[counts.argmax()]:.2f} rad/s in nearly every command, whatever the lidar sees: it is made "
-        "of one scan, such as the first, or of something that does not change"
+        f"angular.z is {usual:.2f} rad/s in nearly every command, whatever the lidar sees: what it is made of does not "
+        "change with the scans"
+    )
+
+
+def one_way(run, point, rates, asked):
+    """Return whether the robot turns to one side only, where it must turn to the other as well; empty if not."""
+    wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
+    turning = rates[np.abs(rates) > 0.02]
+    if len(turning) < FEWEST:
+        return ""
+    way = float(np.sign(np.median(turning)))
+    needed = np.sign(wanted[np.abs(wanted) > 0.3]) == -way
+    if np.mean(np.sign(turning) == way) < 0.99 or needed.sum() < 20:
+        return ""
+    side = "left" if way * run.sign > 0 else "right"
+    return (
+        f"angular.z turns the robot to the {side} only, also in {needed.sum()} scans in which it must turn the other "
+        "way: the error that it is made of never changes its sign; an error is a difference, what is measured minus "
+        "what is wanted, with its sign"
     )
 
 
@@ -105,10 +130,30 @@ def without_sign(point, rates, asked):
     )
 
 
-def late(point, rates, asked):
-    """Return how old what the commands answer is, if they follow a moving average of the scans; empty if not."""
+def offset(point, rates, asked, moving):
+    """Return which rate is commanded where nothing is wrong, if that is far from 0; empty if it is not."""
+    error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
+    clear = moving & (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < 0.5) & (np.abs(away) < 1.0)
+    if clear.sum() < 25 or rates[clear].std() < 0.05 or away[clear].std() < 0.03:
+        return ""
+    terms = np.stack([error, away], axis=1)[clear]
+    gains = np.linalg.lstsq(np.hstack([terms, np.ones((len(terms), 1))]), rates[clear], rcond=None)[0]
+    if _explained(terms, rates[clear]) < 0.75 or abs(gains[2]) < 0.5 or gains[1] < 0.5:
+        return ""
+    return (
+        f"angular.z is still about {abs(gains[2]):.1f} rad/s {'towards' if gains[2] > 0 else 'away from'} the wall "
+        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, the nearest range "
+        "minus the parameter distance"
+    )
+
+
+def late(point, rates, asked, moving=True):
+    """Return how old what the commands answer is, if they follow a moving average of the scans; empty if not.
+
+    Where the robot does not move, all scans are much the same.
+    """
     terms = np.stack([np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2], axis=1)
-    clear = np.abs(rates) < 0.95 * LIMIT
+    clear = (np.abs(rates) < 0.95 * LIMIT) & moving
     if clear.sum() < FEWEST or rates[clear].var() < 1e-3:
         return ""
     now = _explained(terms[clear], rates[clear])

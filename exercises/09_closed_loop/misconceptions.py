@@ -9,6 +9,7 @@ from gz_course.grader.score.suspects import suspect
 
 STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
 LAW = runpy.run_path(str(Path(__file__).with_name("law.py")))
+DRIVING = runpy.run_path(str(Path(__file__).with_name("driving.py")))
 SETTLED = 7.0  # [s] after the start
 KEPT = 0.08  # [m] within which a distance is kept
 BEHIND = "behind the robot"
@@ -25,20 +26,26 @@ def explain(run):
         on_off,
         counted_from_ray_zero,
         other_side,
+        lambda run: DRIVING["zero_rays"](run, *scans(run)),
+        DRIVING["speed_by_distance"],
+        lambda run: DRIVING["silent"](run, scans(run)[0]),
         unchanging,
+        one_way,
         late,
         opposite,
         without_sign,
         deaf,
         kept_beside,
+        offset,
         gaps,
+        DRIVING["straight_on"],
         added,
         mean_of_the_side,
         signs,
         nearest_anywhere,
         integrated,
         measures,
-        counted_turns,
+        DRIVING["counted_turns"],
         stopped,
         old_distance,
         wrong_sign,
@@ -48,8 +55,10 @@ def explain(run):
         weak,
         against_a_wall,
         elsewhere,
-        slow,
+        DRIVING["slow"],
     )
+    if len(scans(run)[0]):
+        run.lag = STEERING["lag"](run, *scans(run))
     return next((said for look in looks if (said := look(run))), "")
 
 
@@ -115,13 +124,34 @@ def point_and_rates(run):
 
 
 def unchanging(run):
-    return LAW["unchanging"](run.recording.signal("topics/cmd_vel/angular/z").values)
+    values = run.recording.signal("topics/cmd_vel/angular/z").values
+    share = (np.abs(values) > 1.45).mean() if len(values) else 0.0
+    if share > 0.3 and (why := suspect(run.recording, "unit")):
+        return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
+    said = LAW["unchanging"](run, values)
+    why = suspect(run.recording, "first_kept", "farthest") if said else ""
+    return f"{said.partition(':')[0]}: {why}" if why else said
+
+
+def one_way(run):
+    return LAW["one_way"](run, *point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
 def late(run):
     """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
     why = suspect(run.recording, "delay", "farthest")
-    return why or (LAW["late"](*point_and_rates(run)) if len(scans(run)[0]) else "")
+    return why or (LAW["late"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else "")
+
+
+def moving(run):
+    """Return at which of the answered scans the robot moves."""
+    times = scans(run)[0]
+    speed = np.interp(times, run.times, np.abs(run.speed)) + 0.2 * np.interp(times, run.times, np.abs(run.turning))
+    return speed[STEERING["answered"](run, times)[0]] > 0.03
+
+
+def offset(run):
+    return LAW["offset"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else ""
 
 
 def opposite(run):
@@ -140,22 +170,12 @@ def kept_beside(run):
     return LAW["kept_beside"](run, SETTLED)
 
 
-def slow(run):
-    """Find out whether the robot drives far below its limit although nothing is wrong with its way."""
-    values = run.recording.signal("topics/cmd_vel/linear/x").values
-    usual = float(np.median(values)) if len(values) else 0.0
-    if not 0.01 < usual < 0.6 * run.limit:
-        return ""
-    return (
-        f"linear.x is {usual:.2f} m/s most of the time, and speed_limit is {run.limit:g} m/s: half of the way that it "
-        "allows is asked for"
-    )
-
-
 def in_degrees(run):
     if said := suspect(run.recording, "angle"):
         return said
     values = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    if (values > 1.45).mean() > 0.3 and (why := suspect(run.recording, "degrees")):
+        return f"angular.z was at its limit, or beyond it, in {(values > 1.45).mean():.0%} of the commands: {why}"
     if len(values) < 50 or np.mean(values > 5.0) < 0.1:
         return ""
     return (
@@ -227,7 +247,7 @@ def old_distance(run):
     kept = float(np.median(run.distance[before])) if before.any() else run.asked[0]
     if abs(usual - run.asked[0]) > KEPT or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
         return ""
-    why = suspect(run.recording, "parameter") or "the parameter is read only once"
+    why = suspect(run.recording, "parameter distance", "parameter") or "its new value does not reach what it steers by"
     return (
         f"the robot still keeps {usual:.2f} m, although distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m "
         f"at {run.changed:g} s: {why}"
@@ -239,9 +259,9 @@ def wrong_sign(run):
     error = np.interp(signal.times / 1e9, run.times, run.error)
     clear = (np.abs(error) > 0.2) & (np.abs(signal.values) > 0.05)
     agree = np.sign(error[clear]) == np.sign(run.sign * signal.values[clear])
-    if len(agree) < 30 or agree.mean() > 0.45:
+    if len(agree) < 30 or agree.mean() > 0.45 or not len(scans(run)[0]):
         return ""
-    if len(scans(run)[0]) and LAW["agrees"](*point_and_rates(run)) > 0.6:
+    if LAW["agrees"](*point_and_rates(run)) > 0.3:
         return ""  # towards the wall by way of the heading, which counts more than the distance
     return "the robot turns away from the wall where it is too far, and towards it where it is too near: a wrong sign"
 
@@ -254,6 +274,8 @@ def wound_up(run):
     said = f"for {seconds:.1f} s the robot went on turning towards a wall that was already too near"
     if why := suspect(run.recording, "integral"):
         return f"{said}: {why}"
+    if len(scans(run)[0]) and LAW["agrees"](*point_and_rates(run)) > 0.9:
+        return ""  # it answers the nearest point as it should
     return f"{said}: what your node takes for the distance is larger than that of the nearest point, or comes late"
 
 
@@ -372,23 +394,3 @@ def nearest_anywhere(run):
         f"at {times[first]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
         f"{on_other[first]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
     )
-
-
-def counted_turns(run):
-    """Find out whether the robot turns on the spot for longer than any corner needs."""
-    command = run.recording.signal("topics/cmd_vel/angular/z")
-    speed = run.recording.signal("topics/cmd_vel/linear/x").values
-    if len(speed) != len(command.values) or not len(speed):
-        return ""
-    spinning = (np.abs(speed) < 0.01) & (np.abs(command.values) > 0.3)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], spinning, [False]]).astype(int)))
-    times = command.times / 1e9
-    for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
-        turned = float(np.abs(command.values[start]) * (times[end] - times[start]))
-        if turned > 2.4 and np.ptp(command.values[start : end + 1]) < 1e-6:
-            return (
-                f"from {times[start]:.1f} s on the robot turned on the spot for {times[end] - times[start]:.1f} s, by "
-                f"{turned:.1f} rad: a turn that is counted in ticks lasts longer where ticks are missed; ask "
-                "the clock, or the lidar"
-            )
-    return ""

@@ -95,10 +95,21 @@ def follows(run, times, bearings, ranges):
     return {name: explained(values, rates, asked) for name, values in found.items()}
 
 
+def lag(run, times, bearings, ranges):
+    """Return how many commands late the answer to a scan comes: 1 if a timer runs before the scan is heard, else 0."""
+    best = []
+    for late in (0, 1):
+        run.lag = late
+        heard, rates, asked = answered(run, times)
+        found = measured(bearings, ranges[heard])
+        best.append(max(explained(found[name], rates, asked) for name in ("right", "other side", "beside", "ahead")))
+    return int(1 - best[1] < 0.7 * (1 - best[0]))
+
+
 def answered(run, times):
     """Return to which scans a command came, the turning rates [rad/s] towards the side, and the distances asked for."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
-    index = np.searchsorted(signal.times / 1e9, times)
+    index = np.searchsorted(signal.times / 1e9, times) + getattr(run, "lag", 0)
     heard = (index < len(signal.times)) & (times > 0.5)
     rates = np.clip(run.sign * signal.values[index[heard]], -LIMIT, LIMIT)
     return heard, rates, np.interp(times[heard], run.times, run.wanted)

@@ -11,12 +11,14 @@ from pathlib import Path
 import numpy as np
 
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.suspects import suspect
 from gz_course.grader.score.true_pose import heading
 
 SPACING = 0.04  # [m] between two points of a wall
 BEHIND = 0.8 * np.pi  # [rad] bearing beyond which a point does not count as on the side
 TOUCH = 0.004  # [m] between the robot and a wall
 AT_ONCE = 0.4  # [s] in which a new parameter takes effect
+APPROACHED = 5.0  # [s] in which the robot comes to its wall
 WIDE = 0.3  # [m] error up to which the robot makes progress along its wall
 # [m] chassis and wheels: from x, to x, from y, to y
 PARTS = ((-0.18, 0.12, -0.1, 0.1), (-0.05, 0.05, -0.14, 0.14))
@@ -161,6 +163,14 @@ def follows(recording, parameters):
     near = (np.abs(run.error) <= WIDE) & (run.speed > 0)
     way, could = float(run.along[near].sum()), float((run.allowed(run.times) * run.step).sum())
     least = parameters["share"] * could
+    beside, _ = run.within(APPROACHED, run.times[-1], WIDE)
+    if (
+        way < least
+        and beside > 0.85
+        and (why := runpy.run_path(str(Path(__file__).with_name("driving.py")))["slow"](run))
+    ):
+        said = f"{way:.1f} m; with speed_limit = {run.limit:g} m/s it could be {could:.1f} m"
+        return Finding(False, f"at least {least:.1f} m forward along the wall on the {run.side}", said, explanation=why)
     return _finding(
         run,
         way >= least,
@@ -196,10 +206,11 @@ def keeps_limits(recording, parameters):
             old = name == "linear/x" and not ((signal.values > high + 1e-3) | (signal.values < low - 1e-3)).any()
             why = (
                 f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at "
-                f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: the parameter is "
-                "read only once"
+                f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: "
+                f"{suspect(recording, 'parameter speed_limit', 'parameter') or 'the old limit still counts'}"
                 if old
-                else limits_missed(name.replace("/", "."), signal.values, low, high)
+                else suspect(recording, *(["limit"] if name == "angular/z" else []))
+                or limits_missed(name.replace("/", "."), signal.values, low, high)
             )
             return Finding(False, expected, seen, round(float(at), 2), explanation=why)
     return Finding(True, expected, "every command was")

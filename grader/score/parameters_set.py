@@ -18,7 +18,11 @@ def parameter_not_set(recording: Recording, facts: dict[str, Any]) -> str:
         if each["outcome"] == "refused" and "undeclared" in each["reason"]:
             said = f"was refused, because the node has not declared that parameter: {_declaration(each)} in __init__"
         elif each["outcome"] == "refused":
-            said = f"was refused: {each['reason']}" if each["reason"] else "was refused, without a reason"
+            said = (
+                f"was refused: {each['reason']}"
+                if each["reason"]
+                else f"was refused, without a reason{_refusal(facts)}"
+            )
             if "invalid type" in each["reason"]:
                 said += (
                     ". The function given to add_on_set_parameters_callback must return "
@@ -35,6 +39,12 @@ def parameter_not_set(recording: Recording, facts: dict[str, Any]) -> str:
             said = "had no answer: a node answers only while it spins, and not while one of its callbacks waits"
         return shown(f"{command} {said}.", 500)
     return ""
+
+
+def _refusal(facts: dict[str, Any]) -> str:
+    """Say which line refuses a new value, if a slip in the file is that; empty if none is."""
+    found = (each for each in facts.get("slips", []) if "SetParametersResult" in each["said"])
+    return next((f": line {each['line']}: {each['said']}" for each in found), "")
 
 
 def _declaration(fact: dict[str, Any]) -> str:

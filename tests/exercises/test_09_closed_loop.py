@@ -12,6 +12,7 @@ from gz_course.grader.record.reading import Signal
 FOLDER = Path(__file__).parents[2] / "exercises/09_closed_loop"
 STEERING = runpy.run_path(str(FOLDER / "steering.py"))
 LAW = runpy.run_path(str(FOLDER / "law.py"))
+DRIVING = runpy.run_path(str(FOLDER / "driving.py"))
 WALL = runpy.run_path(str(FOLDER / "wall.py"))
 
 BEARINGS = np.linspace(-np.pi, np.pi, 180, endpoint=False)
@@ -116,7 +117,7 @@ def test_the_law_of_a_right_follower_has_nothing_wrong(seen):
     rates = np.clip(4 * error + 2 * away, -1.5, 1.5)
     assert LAW["late"](point, rates, asked) == LAW["deaf"](point, rates, asked) == ""
     assert LAW["without_sign"](point, rates, asked) == LAW["opposite"](run(seen[0], rates), point, rates, asked) == ""
-    assert LAW["unchanging"](rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
+    assert LAW["unchanging"](run([0.0], rates), rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
 
 
 def test_wrong_laws_are_named(seen):
@@ -129,9 +130,15 @@ def test_wrong_laws_are_named(seen):
     assert "not its sign" in LAW["without_sign"](point, np.clip(4 * np.abs(error) + 2 * away, -1.5, 1.5), asked)
     opposite = LAW["opposite"](run(seen[0], -right, "right"), point, np.clip(-right, -1.5, 1.5), asked)
     assert "angular.z has the wrong sign" in opposite and "'right'" in opposite
-    assert "the same" not in LAW["unchanging"](right) and "in nearly every command" in LAW["unchanging"](
-        0 * right + 1.5
-    )
+    beside = run(seen[0], right)
+    assert LAW["unchanging"](beside, right) == ""
+    assert "is at its limit, 1.50 rad/s" in LAW["unchanging"](beside, 0 * right + 1.5)
+    assert "in nearly every command" in LAW["unchanging"](beside, 0 * right + 0.4)
+    moving = np.ones(SCANS, bool)
+    assert LAW["offset"](point, right, asked, moving) == LAW["one_way"](beside, point, right, asked) == ""
+    assert "still about 0.8 rad/s towards the wall" in LAW["offset"](point, right + 0.8, asked, moving)
+    assert "to the left only" in LAW["one_way"](beside, point, np.abs(right), asked)
+    assert LAW["late"](point, smooth, asked, ~moving) == ""
 
 
 @pytest.mark.parametrize(
@@ -154,3 +161,65 @@ def test_a_speed_limit_that_changes_is_the_limit_of_what_comes_then():
     limits = Signal(np.array([0, 10_000_000_000]), np.array([0.5, 0.3]))
     allowed = WALL["Run"].allowed(SimpleNamespace(limits=limits, limit=0.5), np.array([5.0, 10.2, 11.0]))
     assert allowed.tolist() == [0.5, 0.5, 0.3]
+
+
+def test_commands_that_answer_the_scan_before_are_compared_with_it(seen):
+    times, bearings, ranges = seen
+    right = CONTROLLERS[""](STEERING["measured"](bearings, ranges))
+    assert STEERING["lag"](run(times, right), times, bearings, ranges) == 0
+    assert STEERING["lag"](run(times, np.concatenate([[0.0], right[:-1]])), times, bearings, ranges) == 1
+
+
+def driven(turning, ahead, distance, side="left", limit=0.5):
+    """A run of 30 s whose commands come ten times a second; distance is set from 0.6 to 0.9 m at 15 s."""
+    times = np.arange(0.0, 30.0, 0.1)
+    stamps = np.round(times * 1e9).astype(np.int64)
+    signals = {
+        "topics/cmd_vel/angular/z": Signal(stamps, np.broadcast_to(turning, times.shape)),
+        "topics/cmd_vel/linear/x": Signal(stamps, np.broadcast_to(ahead, times.shape)),
+    }
+    asked = np.array([0.6, 0.9])
+    wanted = np.where(times < 15.0, *asked)
+    return SimpleNamespace(
+        recording=SimpleNamespace(signal=signals.__getitem__, facts=lambda: {}),
+        times=times,
+        side=side,
+        limit=limit,
+        asked=asked,
+        changed=15.0,
+        distance=np.broadcast_to(distance, times.shape),
+        error=distance - wanted,
+    )
+
+
+def test_a_slow_robot_is_told_so():
+    assert "too slow: linear.x is 0.20 m/s at most" in DRIVING["slow"](driven(0.1, 0.2, 0.6))
+    assert DRIVING["slow"](driven(0.1, 0.45, 0.6)) == ""
+
+
+def test_driving_straight_on_far_from_the_wall_is_named():
+    times = np.arange(0.0, 30.0, 0.1)
+    gone = np.where((times > 8) & (times < 10), 2.0, 0.6)
+    said = DRIVING["straight_on"](driven(np.where(gone > 1, 0.0, 0.3), 0.4, gone, "right"))
+    assert said.startswith("from 8.1 s on angular.z was 0 for 1.8 s") and "to the right" in said
+    assert DRIVING["straight_on"](driven(0.3, 0.4, gone)) == ""
+    assert DRIVING["straight_on"](driven(0.0, 0.4, 2.0 - 0.03 * times)) == ""  # at an angle towards the wall
+
+
+def test_a_speed_that_is_made_of_the_distance_is_named():
+    times = np.arange(0.0, 30.0, 0.1)
+    assert "made of the parameter distance" in DRIVING["speed_by_distance"](
+        driven(0.1, np.where(times < 15, 0.58, 0.87), 0.6)
+    )
+    assert DRIVING["speed_by_distance"](driven(0.1, 0.45, 0.6)) == ""
+
+
+def test_a_node_that_is_silent_while_all_is_right_is_named():
+    run = driven(0.1, 0.4, 0.0)
+    run.error = np.where(np.arange(300) % 20 < 10, 0.02, 0.3)
+    kept = run.error > 0.1
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    run.recording.signal = lambda name: Signal(signal.times[kept], signal.values[kept])
+    assert "no command came for" in DRIVING["silent"](run, run.times)
+    run.recording.signal = lambda name: signal
+    assert DRIVING["silent"](run, run.times) == ""

@@ -76,6 +76,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
 
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
+    names = sorted({name for trial in exercise.trials for name in trial.parameters})
     places = {
         "before_speeds": before_speeds(content),
         "conditions": conditions(content),
@@ -88,7 +89,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "lookups": lookups(content),
         "shared_headers": shared_headers(content),
         "silent_log": silent_log(content),
-        "slips": slips(content, exercise.duration, message_fields(heard)),
+        "slips": slips(content, exercise.duration, message_fields(heard), names),
         "suspects": suspects(content),
         "time_reckoning": time_reckoning(content),
         "wall_clock": wall_clock(content),

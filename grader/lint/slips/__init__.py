@@ -7,7 +7,7 @@ lost points. Each file has its `LOOKS`: functions of a syntax tree that yield a 
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from gz_course.grader.lint.slips import (
@@ -60,17 +60,21 @@ ROOMS = (
 
 
 def slips(
-    content: bytes, duration: float = LONGEST_PERIOD, fields: Mapping[str, list[str]] = MappingProxyType({})
+    content: bytes,
+    duration: float = LONGEST_PERIOD,
+    fields: Mapping[str, list[str]] = MappingProxyType({}),
+    names: Sequence[str] = (),
 ) -> Places:
     """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python.
 
-    `duration` [s] is the length of the run, `fields` are those of the messages of the exercise, by class.
+    `duration` [s] is the length of the run, `fields` are those of the messages of the exercise, by class;
+    `names` those of the parameters that its trials give the node.
     """
-    return places_in(content, lambda tree: _places(tree, duration, fields))
+    return places_in(content, lambda tree: _places(tree, duration, fields, names))
 
 
-def _places(tree: ast.Module, duration: float, fields: Mapping[str, list[str]]) -> Places:
-    found = [*periods(tree, duration), *unknown_fields(tree, fields)]
+def _places(tree: ast.Module, duration: float, fields: Mapping[str, list[str]], names: Sequence[str]) -> Places:
+    found = [*periods(tree, duration), *unknown_fields(tree, fields), *parameters.declared_otherwise(tree, names)]
     for room in ROOMS:
         found += [place for look in room for place in look(tree)]
     return [{"line": line, "said": said} for line, said in found[:MOST]]

@@ -112,4 +112,44 @@ def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[
                     yield ast.unparse(target), (node.lineno, ast.unparse(call), how)
 
 
-LOOKS = (places_for_rays,)
+def places_in_masked(tree: ast.AST) -> Iterator[Place]:
+    """Find `angles[np.argmin(ranges[valid])]`: the place counts in what is left, and angles has all rays."""
+    for function in functions(tree):
+        masked, found = {}, {}
+        for node in ast.walk(function):
+            if isinstance(node, ast.Assign) and len(node.targets) == 1:
+                name, value = ast.unparse(node.targets[0]), node.value
+                if mask := _mask(value, masked):
+                    masked[name] = mask
+                if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
+                    found[name] = (ast.unparse(value), mask)
+        for node in (each for each in ast.walk(function) if isinstance(each, ast.Subscript)):
+            of, place = ast.unparse(node.value), node.slice
+            what, mask = found.get(ast.unparse(place), ("", ""))
+            if isinstance(place, ast.Call) and _finds(place):
+                what, mask = ast.unparse(place), _mask(place.args[0], masked)
+            whole = isinstance(node.value, ast.Name) or of.endswith(".ranges")
+            if mask and whole and of not in masked and isinstance(node.ctx, ast.Load):
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]}: {what[:50]} is a place among those that {mask[:30]} has left, and {of} "
+                    f"has all rays, so it is another ray; use {of}[{mask[:30]}]",
+                )
+                return
+
+
+def _finds(call: ast.Call) -> bool:
+    return ast.unparse(call.func).rpartition(".")[2] in ("argmin", "nanargmin", "argmax") and len(call.args) == 1
+
+
+def _mask(node: ast.expr, masked: dict[str, str]) -> str:
+    """Return by which mask an array is only a part, such as `ok` of `ranges[ok]`; empty if it is whole."""
+    text = ast.unparse(node)
+    if isinstance(node, ast.Subscript):
+        part = node.slice
+        name = isinstance(part, ast.Name) and not part.id.startswith(("i", "k", "n", "j"))
+        return ast.unparse(part) if name or isinstance(part, ast.Compare) else ""
+    return masked.get(text, "")
+
+
+LOOKS = (places_for_rays, places_in_masked)

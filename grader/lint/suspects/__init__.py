@@ -28,6 +28,8 @@ from gz_course.grader.lint.suspects import (
     rays,
     same_places,
     smoothing,
+    stale_parameters,
+    steering_units,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -46,6 +48,8 @@ LOOKS = (
     *bearings.LOOKS,
     *feedback.LOOKS,
     *smoothing.LOOKS,
+    *stale_parameters.LOOKS,
+    *steering_units.LOOKS,
     *farthest.LOOKS,
     *goals.LOOKS,
     *old_values.LOOKS,

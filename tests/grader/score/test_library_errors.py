@@ -48,6 +48,11 @@ def test_a_mistake_with_arrays_is_explained(mistake, words):
         ("ParameterNotDeclaredException: Invalid access to undeclared parameter(s): side", "declare_parameter('side'"),
         ("ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']", "from the start"),
         ("ParameterAlreadyDeclaredException: Parameter(s) already declared: ['side']", "declared once"),
+        (
+            "InvalidParameterTypeException: Trying to set parameter 'distance' to '0.6' of type 'DOUBLE', expecting "
+            "type 'INTEGER': distance",
+            "that of distance here is of type INTEGER",
+        ),
         ("AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'", "those of ROS 1"),
         ("AttributeError: 'ServerGoalHandle' object has no attribute 'waypoints'", "goal_handle.request"),
         ("AttributeError: 'Patrol_Goal' object has no attribute 'request'", "the goal itself"),

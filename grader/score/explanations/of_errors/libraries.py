@@ -103,6 +103,14 @@ MEANINGS = (
         "declare_parameter('{0}', DEFAULT) must have been called before, in __init__, with the same name",
     ),
     (
+        re.compile(
+            r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '([^']*)' of type '(\w+)', "
+            r"expecting type '(\w+)'"
+        ),
+        "the default in declare_parameter() gives a parameter its type: that of {0} here is of type {3}, and the value "
+        "{1} that comes from outside is of type {2}; a DOUBLE has a point, such as 1.0",
+    ),
+    (
         re.compile(r"ParameterAlreadyDeclaredException.*\buse_sim_time\b"),
         "every node has the parameter use_sim_time from the start: leave this line out; its value comes from outside, "
         "such as parameters=[{{'use_sim_time': True}}] in the launch file",

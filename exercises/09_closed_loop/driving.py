@@ -1,0 +1,122 @@
+"""How the robot was driven: too slowly, straight on where the wall turns, with no command; `misconceptions.py` asks."""
+
+import numpy as np
+
+from gz_course.grader.score.suspects import suspect
+
+LONG = 0.7  # [s] of driving straight on
+FAR = 0.3  # [m] beyond the distance that is asked for
+
+
+def slow(run):
+    """Find out whether the robot drives far below its limit although nothing is wrong with its way."""
+    values = run.recording.signal("topics/cmd_vel/linear/x").values
+    usual, most = (float(np.median(values)), float(values.max())) if len(values) else (0.0, 0.0)
+    if not 0.01 < usual < 0.6 * run.limit:
+        return ""
+    if most < 0.8 * run.limit:
+        return (
+            f"the robot is too slow: linear.x is {most:.2f} m/s at most, and speed_limit is {run.limit:g} m/s; half of "
+            "the way that it allows is asked for, so make the speed from the parameter speed_limit"
+        )
+    return (
+        f"the robot is too slow: linear.x is {usual:.2f} m/s most of the time, and speed_limit is {run.limit:g} m/s; "
+        "half of the way that it allows is asked for"
+    )
+
+
+def straight_on(run):
+    """Find out whether the robot drives straight on for long where its wall ends or lies far away."""
+    signal = run.recording.signal("topics/cmd_vel/angular/z")
+    ahead = run.recording.signal("topics/cmd_vel/linear/x").values
+    times = signal.times / 1e9
+    if len(times) < 20 or len(ahead) != len(times):
+        return ""
+    far = np.interp(times, run.times, np.minimum(run.error, 9.0)) > FAR
+    straight = (np.abs(signal.values) < 0.01) & (ahead > 0.01) & far & (times > 3.0)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], straight, [False]]).astype(int)))
+    for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
+        if times[end] - times[start] < LONG:
+            continue
+        there, then = (float(np.interp(times[each], run.times, run.distance)) for each in (start, end))
+        if then < there - 0.1:
+            continue  # it comes nearer at an angle
+        return (
+            f"from {times[start]:.1f} s on angular.z was 0 for {times[end] - times[start]:.1f} s, and the wall was "
+            f"{min(there, then):.2f} m away or more: turn towards the wall there, to the {run.side}, as at a corner "
+            "that turns outwards; only past gaps of up to 20 cm the robot drives straight on"
+        )
+    return ""
+
+
+def speed_by_distance(run):
+    """Find out whether linear.x follows the parameter distance: its largest value changes with it."""
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    times = signal.times / 1e9
+    before, after = signal.values[(times > 1) & (times < run.changed)], signal.values[times > run.changed + 0.5]
+    if min(len(before), len(after)) < 50 or abs(run.asked[-1] - run.asked[0]) < 0.1:
+        return ""
+    first, second = float(before.max()), float(after.max())
+    ratio = run.asked[-1] / run.asked[0]
+    if abs(second / max(first, 1e-9) - ratio) > 0.02 or not 0.6 * run.asked[0] < first < 1.05 * run.asked[0]:
+        return ""
+    return (
+        f"linear.x is up to {first:.2f} m/s, and up to {second:.2f} m/s since distance was set from {run.asked[0]:g} "
+        f"to {run.asked[-1]:g} m: it is made of the parameter distance, and the speed is limited by speed_limit"
+    )
+
+
+def silent(run, scans):
+    """Find out whether no command comes as long as the distance is about right: the robot goes on with the last one."""
+    times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    if len(times) < 20 or len(scans) < 50:
+        return ""
+    index = np.searchsorted(times, scans)
+    answered = (index < len(times)) & (times[np.minimum(index, len(times) - 1)] - scans < 0.12)
+    clear = scans > 1.0
+    error = np.abs(np.interp(scans, run.times, np.minimum(run.error, 9.0)))
+    quiet = clear & ~answered
+    if quiet.sum() < 15 or quiet.sum() < 0.05 * clear.sum():
+        return ""
+    near = float(np.percentile(error[quiet], 90))
+    if (
+        near > 0.12
+        or np.mean(answered[clear & (error < 0.7 * near)]) > 0.3
+        or not (error[clear & answered] > near).any()
+    ):
+        return ""
+    return (
+        f"no command came for {quiet.sum()} of {clear.sum()} scans, those in which the distance was right within "
+        f"{near:.2f} m: without a new command the robot goes on with the last one, and goes on turning; publish one "
+        "for each scan"
+    )
+
+
+def zero_rays(run, times, bearings, ranges):
+    """Find out whether rays that hit nothing count as 0 m, by the file, in scans that have such rays on the side."""
+    if not len(times):
+        return ""
+    side = (bearings > -0.2) & (bearings < 2.5)
+    if np.isinf(ranges[:, side]).any(axis=1).mean() < 0.02:
+        return ""
+    return suspect(run.recording, "zero")
+
+
+def counted_turns(run):
+    """Find out whether the robot turns on the spot for longer than any corner needs."""
+    command = run.recording.signal("topics/cmd_vel/angular/z")
+    speed = run.recording.signal("topics/cmd_vel/linear/x").values
+    if len(speed) != len(command.values) or not len(speed):
+        return ""
+    spinning = (np.abs(speed) < 0.01) & (np.abs(command.values) > 0.3)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], spinning, [False]]).astype(int)))
+    times = command.times / 1e9
+    for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
+        turned = float(np.abs(command.values[start]) * (times[end] - times[start]))
+        if turned > 2.4 and np.ptp(command.values[start : end + 1]) < 1e-6:
+            return (
+                f"from {times[start]:.1f} s on the robot turned on the spot for {times[end] - times[start]:.1f} s, by "
+                f"{turned:.1f} rad: a turn that is counted in ticks lasts longer where ticks are missed; ask "
+                "the clock, or the lidar"
+            )
+    return ""
