@@ -126,6 +126,8 @@ def rejects(recording, parameters):
                 why += (
                     ": goal_callback must return GoalResponse.ACCEPT or GoalResponse.REJECT, and returns something else"
                 )
+            elif said := suspect(recording, "refuses_all"):
+                why += f": {said}"
             return Finding(False, expected, "a good goal was rejected, too", explanation=why)
         return gate
     for goal, words in GOALS.items():
@@ -151,7 +153,9 @@ def visits(recording, parameters):
         return Finding(False, expected, f"{moving:.2f} m/s after the end", end, explanation=words)
     if count == total:
         return Finding(True, expected, f"{total} of {total} waypoints")
-    why = MISCONCEPTIONS.reached_early(run, "patrol")
+    if LATER.spoilt(run):
+        return gated(expected, "a second goal was accepted before the patrol was driven to its end")
+    why = LATER.of_a_refused_goal(run) or MISCONCEPTIONS.reached_early(run, "patrol")
     still = not run.linear.values[(run.times > run.period("patrol")[0]) & (run.times < end)].any()
     if still and run.one("result", "patrol") is None and not run.all("feedback", "patrol"):
         why = (
@@ -199,9 +203,10 @@ def feedback(recording, parameters):
     if run.nearest("patrol", end)[0] < len(points):
         return gated(expected, "the patrol was not driven to its end")
     if not said:
-        return wrong(
-            "no feedback came", end, suspect(recording, "feedback") or "Your server never calls publish_feedback"
-        )
+        why = suspect(recording, "feedback")
+        if suspect(recording, "no_feedback"):
+            why = "Your server never calls publish_feedback"
+        return wrong("no feedback came", end, why)
     if all(each["at"] > end - 0.3 for each in said):
         return wrong("it came at the end only", end, "Your feedback comes only when the patrol is over")
     times = [start, *(each["at"] for each in said), end]
@@ -284,7 +289,8 @@ def result(recording, parameters):
     measured = f"{found['status']}, visited = {found['visited']}"
     why = ""
     if found["status"] == "ABORTED":
-        why = "The patrol was driven to its end, but ended as ABORTED: nobody called goal_handle.succeed()"
+        why = "The patrol was driven to its end, but ended as ABORTED: "
+        why += suspect(recording, "ended") or "nobody called goal_handle.succeed()"
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
         why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
     elif found["status"] == "SUCCEEDED" and found["visited"] != total:
@@ -298,7 +304,9 @@ def busy(recording, parameters):
     if gate := no_patrol(run, expected):
         return gate
     if event := run.one("accepted", "second"):
-        return Finding(False, expected, "a second goal was accepted during a patrol", event["at"])
+        so = LATER.spoilt(run)
+        why = f"Your server accepts a second goal during a patrol, which it must reject; {so}" if so else ""
+        return Finding(False, expected, "a second goal was accepted during a patrol", event["at"], explanation=why)
     if not run.one("rejected", "second"):
         return gated(expected, "nobody answered to a second goal")
     for goal in ("cancelled", "again"):
@@ -333,6 +341,10 @@ def cancel(recording, parameters):
     if asked is None:
         return gated(expected, "no goal was there to be cancelled")
     at = asked["at"]
+    if (early := run.one("result", "cancelled")) is not None and early["at"] < at:
+        measured = f"it ended as {early['status']} {at - early['at']:.1f} s before it was to be cancelled"
+        why = LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "cancelled")
+        return Finding(False, expected, measured, early["at"], explanation=why)
     before = run.linear.values[(run.times > at - 1.0) & (run.times <= at)]
     if np.max(before, initial=0.0) < 0.05:
         return gated(expected, "the robot did not drive when the goal was cancelled")

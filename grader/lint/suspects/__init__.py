@@ -17,6 +17,7 @@ from gz_course.grader.lint.suspects import (
     drives,
     farthest,
     feedback,
+    goal_flags,
     goals,
     gyroscopes,
     headings,
@@ -28,6 +29,7 @@ from gz_course.grader.lint.suspects import (
     rays,
     same_places,
     smoothing,
+    waypoint_loops,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -48,10 +50,12 @@ LOOKS = (
     *smoothing.LOOKS,
     *farthest.LOOKS,
     *goals.LOOKS,
+    *goal_flags.LOOKS,
     *old_values.LOOKS,
     *drives.LOOKS,
     *hidden_errors.LOOKS,
     *ways.LOOKS,
+    *waypoint_loops.LOOKS,
 )
 MOST = 20  # suspects kept
 
