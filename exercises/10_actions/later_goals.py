@@ -54,7 +54,29 @@ def of_a_refused_goal(run):
     said = suspect(run.recording, "stored_goal")
     return (
         "A second goal was rejected, but the robot drives to its waypoint: what goal_callback is asked about must not "
-        f"change the patrol under way{f'. In line{said[4:]}' if said else ''}"
+        f"change the patrol under way{f'. In {said}' if said else ''}"
+    )
+
+
+def slowed(run):
+    """Return the speed [m/s] that a patrol takes over from a second goal that was rejected, and when; else None."""
+    refused = run.one("rejected", "second")
+    if refused is None:
+        return None
+    since, (_, end) = refused["at"] + SOON, run.period("patrol")
+    fastest = float(run.linear.values[(run.times >= since) & (run.times <= end)].max(initial=0.0))
+    other, own = run.one("sent", "second")["speed"], run.one("sent", "patrol")["speed"]
+    if abs(fastest - other) > 0.12 * other or abs(other - own) < 0.3 * own:
+        return None
+    return fastest, since
+
+
+def of_a_refused_speed(run):
+    """Return why a patrol goes on at the speed of a goal that was rejected."""
+    said = suspect(run.recording, "stored_goal")
+    return (
+        "A second goal was rejected, but the robot goes on at its speed: what goal_callback is asked about must not "
+        f"change the patrol under way{f'. In {said}' if said else ''}"
     )
 
 

@@ -232,6 +232,21 @@ def drives_on(run, speeds):
     return float(np.abs(speeds[after]).max(initial=0.0))
 
 
+def obeys(run, since, until):
+    """Return what a robot obeys that moves between two times [s] after the end of a goal."""
+    later = [0]
+    for name in ("linear/x", "angular/z"):
+        signal = run.recording.signal(f"topics/cmd_vel/{name}")
+        times = signal.times / 1e9
+        later.append(int(np.sum((times > since + 0.05) & (times <= until) & (np.abs(signal.values) > 0.02))))
+    if max(later) > 1:
+        return (
+            f"{max(later)} commands other than zero came after the end, so a timer, a callback or another loop still "
+            "drives: take the goal away from it, too, and publish a Twist of zeros after that"
+        )
+    return "it obeys the last command until it gets a Twist of zeros"
+
+
 def other_speed(run, fastest):
     """Return what the speeds are instead of those of the goals: `fastest` [m/s] by goal."""
     asked = {goal: run.one("sent", goal)["speed"] for goal in fastest}

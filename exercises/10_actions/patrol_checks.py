@@ -145,11 +145,12 @@ def visits(recording, parameters):
     _, end = run.period("patrol")
     count, left = run.nearest("patrol", end)
     total = len(run.waypoints("patrol"))
+    over = ("patrol is over: " + MISCONCEPTIONS.obeys(run, end, end + 0.5)) if count == total else ""
     if count == total and (turning := MISCONCEPTIONS.drives_on(run, run.angular.values)) > TURNS_ON:
-        words = "The robot turns on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
+        words = f"The robot turns on when the {over}"
         return Finding(False, expected, f"{turning:.2f} rad/s after the end", end, explanation=words)
     if count == total and (moving := MISCONCEPTIONS.drives_on(run, run.linear.values)) > 0.03:
-        words = "The robot drives on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
+        words = f"The robot drives on when the {over}"
         return Finding(False, expected, f"{moving:.2f} m/s after the end", end, explanation=words)
     if count == total:
         return Finding(True, expected, f"{total} of {total} waypoints")
@@ -185,6 +186,10 @@ def speed(recording, parameters):
         right = 0.85 * wanted <= fastest <= 1.12 * wanted
         if not measured or not right:
             measured, at, passed = f"{fastest:.2f} m/s where {wanted:.2f} m/s was asked for", start, right
+    if passed and (slower := LATER.slowed(run)):
+        wanted = run.one("sent", "patrol")["speed"]
+        measured = f"{slower[0]:.2f} m/s after a second goal was rejected, where {wanted:.2f} m/s was asked for"
+        return Finding(False, expected, measured, slower[1], explanation=LATER.of_a_refused_speed(run))
     driven = any(fastest > 0.02 for fastest in fastest_of.values())
     why = "" if passed or not driven else MISCONCEPTIONS.other_speed(run, fastest_of)
     return Finding(passed, expected, measured, None if passed else at, explanation=why)
@@ -269,6 +274,12 @@ def endless(run):
     """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
     if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
         return ""
+    driving = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    if len(driving) and driving[-1] > run.end - 0.5 and not still_driving(run, "patrol"):
+        return (
+            "The robot has been at all waypoints, but no result came until the end of the run, and commands still "
+            "come: the loop in execute goes on"
+        )
     return still_driving(run, "patrol") or (
         "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
         "Patrol.Result (a function without return returns None, which is no result)"
@@ -355,7 +366,7 @@ def cancel(recording, parameters):
     window = (run.times >= at + STOPPED) & (run.times <= at + STOPPED + 0.5)
     moving = float(np.max(np.abs(run.linear.values[window]), initial=0.0))
     if moving > 0.03 and found is not None and found["at"] < at + STOPPED:
-        why = "The goal ended, but the robot drove on: it obeys the last command until it gets a Twist of zeros"
+        why = f"The goal ended, but the robot drove on: {MISCONCEPTIONS.obeys(run, found['at'], at + STOPPED + 0.5)}"
         return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
     if moving > 0.03:
         why = MISCONCEPTIONS.ends_late(run, found, at)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, calls
+
+VALUES = {"double_value": float, "integer_value": int, "string_value": str, "bool_value": bool}
+ARTICLES = {float: "a float", int: "an integer", str: "a text", bool: "a truth value"}
 
 
 def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
@@ -26,4 +29,33 @@ def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (callbacks_without_result,)
+def values_of_another_type(tree: ast.AST) -> Iterator[Place]:
+    """Find `get_parameter('x').get_parameter_value().double_value` of a parameter that was declared as no float."""
+    declared = {
+        call.args[0].value: call.args[1].value
+        for call, name in calls(tree)
+        if name == "declare_parameter" and len(call.args) == 2 and all(isinstance(e, ast.Constant) for e in call.args)
+    }
+    for node in ast.walk(tree):
+        match node:
+            case ast.Attribute(
+                value=ast.Call(
+                    func=ast.Attribute(
+                        value=ast.Call(func=ast.Attribute(attr="get_parameter"), args=[ast.Constant(value=name)]),
+                        attr="get_parameter_value",
+                    )
+                ),
+                attr=field,
+            ) if field in VALUES and type(declared.get(name)) in set(ARTICLES) - {VALUES[field]}:
+                yield (
+                    node.lineno,
+                    f"{field} of the parameter {name} is never set, because declare_parameter({name!r}, "
+                    f"{declared[name]!r}) makes it {ARTICLES[type(declared[name])]}: .value is its value whatever the "
+                    f"type, and a default of the type {VALUES[field].__name__} makes it one of that type",
+                )
+
+
+LOOKS = (
+    values_of_another_type,
+    callbacks_without_result,
+)
