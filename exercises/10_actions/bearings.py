@@ -5,6 +5,7 @@ import numpy as np
 DRIVES = 0.08  # [m/s]
 FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead
 FEWEST = 20  # samples of a robot that drives
+TURNS = 0.02  # [rad/s] a robot that turns less steers by no angle
 REACHED = 0.17  # [m]
 ASIDE = 0.8  # [rad]
 RIGHT = "the heading is 2 * atan2(orientation.z, orientation.w), in radians"
@@ -54,7 +55,7 @@ def wrong_bearing(run, chosen, points):
     beside, yaw, rate = missed - way[driving], yaw[driving], rate[driving]
     direction = np.arctan2(beside[:, 1], beside[:, 0])
     error = _wrapped(direction - yaw)
-    if np.mean(np.abs(error) < FACES) > 0.5:
+    if np.abs(rate).max() < TURNS or np.mean(np.abs(error) < FACES) > 0.5:
         return ""
     shares = {words: _share(direction - taken(yaw)) for words, taken in HEADINGS.items()}
     shares |= {words: _share(taken(beside, missed) - yaw) for words, taken in DIRECTIONS.items()}

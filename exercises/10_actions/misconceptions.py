@@ -35,7 +35,7 @@ def went_elsewhere(run, goal, until):
         return f"A waypoint counts as reached where the robot is not: {said}"
     if words := last_only(run, way, points):
         return words
-    return turned_wrong(run, chosen, points) or blind(run, goal) or BEARINGS.wrong_bearing(run, chosen, points)
+    return blind(run, goal) or BEARINGS.wrong_bearing(run, chosen, points) or turned_wrong(run, chosen, points)
 
 
 def last_only(run, way, points):
