@@ -142,7 +142,7 @@ def offset(point, rates, asked, moving):
         return ""
     return (
         f"angular.z is still about {abs(gains[2]):.1f} rad/s {'towards' if gains[2] > 0 else 'away from'} the wall "
-        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, the nearest range "
+        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, nearest range "
         "minus the parameter distance"
     )
 

@@ -1,4 +1,4 @@
-"""Why a goal after the first one fails: it is refused for another reason than a patrol under way, or goes elsewhere."""
+"""Why a goal beside or after the first one fails: it spoils the one under way, is refused, or goes elsewhere."""
 
 import json
 
@@ -8,6 +8,8 @@ from gz_course.grader.score.suspects import suspect
 
 MOVED = 0.25  # [m] from the start of a patrol: then its direction is known
 STRAIGHT = 0.15  # [rad]
+SOON = 0.6  # [s] after a second goal was accepted: who ends the patrol then ends it because of that goal
+THERE = 0.17  # [m] from a waypoint
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 HEADED = {
     "waypoints are taken as seen from where the patrol begins; they are places in the frame odom": lambda p, c, s: p,
@@ -15,6 +17,67 @@ HEADED = {
         lambda p, c, s: np.column_stack((c * p[:, 0] - s * p[:, 1], s * p[:, 0] + c * p[:, 1]))
     ),
 }
+
+
+def spoilt(run):
+    """Return what a second goal did to the patrol under way; empty if the patrol went its way until its end."""
+    taken, found = run.one("accepted", "second"), run.one("result", "patrol")
+    if taken is None or (found is not None and found["at"] < taken["at"]):
+        return ""
+    if found is not None and found["at"] < taken["at"] + SOON and run.nearest("patrol", found["at"])[0] == 0:
+        return f"the patrol under way ended as {found['status']} {max(0.0, found['at'] - taken['at']):.2f} s later"
+    return "the robot left the patrol under way for its waypoint" if follows(run, taken["at"]) else ""
+
+
+def follows(run, since):
+    """Return whether the robot drives to the waypoint of the second goal after a time [s], and not to its own."""
+    _, end = run.period("patrol")
+    later = (run.times >= since) & (run.times <= end)
+    way, place = run.way[later], np.array(run.waypoints("second")[0], dtype=float)
+    if not len(way) or run.nearest("patrol", end)[0] == len(run.waypoints("patrol")):
+        return False
+    left = np.hypot(*(way - place).T)
+    return left[-1] < THERE or (left[0] - left[-1] > 0.5 and _straight(way, place))
+
+
+def _straight(way, place):
+    """Return whether the last half metre of a way leads straight to a place."""
+    gone = np.hypot(*(way - way[-1]).T)
+    return gone.max() > 0.5 and _apart(way[-1] - way[int(np.argmax(gone <= 0.5))], place - way[-1]) < STRAIGHT
+
+
+def of_a_refused_goal(run):
+    """Return that the patrol under way is changed by a goal that was rejected; empty if it is not."""
+    refused = run.one("rejected", "second")
+    if refused is None or not follows(run, refused["at"]):
+        return ""
+    said = suspect(run.recording, "stored_goal")
+    return (
+        "A second goal was rejected, but the robot drives to its waypoint: what goal_callback is asked about must not "
+        f"change the patrol under way{f'. In {said}' if said else ''}"
+    )
+
+
+def slowed(run):
+    """Return the speed [m/s] that a patrol takes over from a second goal that was rejected, and when; else None."""
+    refused = run.one("rejected", "second")
+    if refused is None:
+        return None
+    since, (_, end) = refused["at"] + SOON, run.period("patrol")
+    fastest = float(run.linear.values[(run.times >= since) & (run.times <= end)].max(initial=0.0))
+    other, own = run.one("sent", "second")["speed"], run.one("sent", "patrol")["speed"]
+    if abs(fastest - other) > 0.12 * other or abs(other - own) < 0.3 * own:
+        return None
+    return fastest, since
+
+
+def of_a_refused_speed(run):
+    """Return why a patrol goes on at the speed of a goal that was rejected."""
+    said = suspect(run.recording, "stored_goal")
+    return (
+        "A second goal was rejected, but the robot goes on at its speed: what goal_callback is asked about must not "
+        f"change the patrol under way{f'. In {said}' if said else ''}"
+    )
 
 
 def refused(run, goal):

@@ -1,9 +1,14 @@
 """What a patrol looks like if its server has a common misconception; `patrol_checks.py` asks for those that fit."""
 
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
 import numpy as np
 
 from gz_course.grader.score.suspects import suspect
 
+BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearings.py"))))
 LONG = 4.0  # [s] without a new command
 MOVED = 0.1  # [m] a robot that moved less stood
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
@@ -28,11 +33,17 @@ def went_elsewhere(run, goal, until):
         return words
     if said := suspect(run.recording, "one_axis"):
         return f"A waypoint counts as reached where the robot is not: {said}"
-    if len(points) > 1 and not _reaches(way, points[:1]) and _reaches(way, points[-1:]):
-        return (
-            "The robot drove to the last waypoint only: the goal holds a list of them, to be visited one after another"
-        )
-    return turned_wrong(run, chosen, points) or blind(run, goal)
+    if words := last_only(run, way, points):
+        return words
+    return blind(run, goal) or BEARINGS.wrong_bearing(run, chosen, points) or turned_wrong(run, chosen, points)
+
+
+def last_only(run, way, points):
+    """Find out whether the robot went to the last waypoint and to none before it."""
+    if len(points) < 2 or _reaches(way, points[:1]) or not _reaches(way, points[-1:]):
+        return ""
+    why = suspect(run.recording, "left_out") or "the goal holds a list of them, to be visited one after another"
+    return f"The robot drove to the last waypoint only: {why}"
 
 
 def old_commands(run, goal, until):
@@ -149,6 +160,8 @@ def reached_early(run, goal):
     if words := other_places(way, np.array(points)):
         return f"The robot went elsewhere: {words}"
     near = [float(np.hypot(*(way - point).T).min()) for point in points]
+    if words := last_only(run, way, np.array(points)):
+        return words
     if said := suspect(run.recording, "one_axis"):
         return f"A waypoint counts as reached where the robot is not: {said}"
     if max(near) < 0.6 and (words := by_reckoning(run, goal)):
@@ -158,11 +171,10 @@ def reached_early(run, goal):
             f"Your server counts a waypoint as reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
             "asked for"
         )
-    if near[0] < 0.2 and np.hypot(*(way[-1] - points[0])) < 0.3:
-        return (
-            f"The patrol ended as {found['status']} after the first waypoint: a return, or a break, stands inside the "
-            "loop"
-        )
+    if near[0] < 0.2 and len(points) > 1 and np.hypot(*(way[-1] - points[0])) < 0.3:
+        why = suspect(run.recording, "left_early", "left_out")
+        why = why or "the loop over the waypoints has to go on until the last one"
+        return f"The patrol ended as {found['status']} after the first waypoint: {why}"
     return ""
 
 
@@ -191,7 +203,7 @@ def ends_late(run, found, asked):
     if said := suspect(run.recording, "cancel"):
         return f"{why}: {said}"
     if found is None or found["status"] != "CANCELED":
-        return f"{why}: the loop never asks goal_handle.is_cancel_requested"
+        return f"{why}: the loop never asks goal_handle.is_cancel_requested while it drives"
     later = f"the goal ended as CANCELED {found['at'] - asked:.1f} s after it was cancelled"
     place = run.way[np.searchsorted(run.times, found["at"]).clip(0, len(run.times) - 1)]
     if np.hypot(*(np.array(run.waypoints("cancelled")) - place).T).min() < 0.2:
@@ -218,6 +230,21 @@ def drives_on(run, speeds):
         return 0.0
     after = (run.times >= found["at"] + 0.3) & (run.times <= following["at"])
     return float(np.abs(speeds[after]).max(initial=0.0))
+
+
+def obeys(run, since, until):
+    """Return what a robot obeys that moves between two times [s] after the end of a goal."""
+    later = [0]
+    for name in ("linear/x", "angular/z"):
+        signal = run.recording.signal(f"topics/cmd_vel/{name}")
+        times = signal.times / 1e9
+        later.append(int(np.sum((times > since + 0.05) & (times <= until) & (np.abs(signal.values) > 0.02))))
+    if max(later) > 1:
+        return (
+            f"{max(later)} commands other than zero came after the end, so a timer, a callback or another loop still "
+            "drives: take the goal away from it, too, and publish a Twist of zeros after that"
+        )
+    return "it obeys the last command until it gets a Twist of zeros"
 
 
 def other_speed(run, fastest):

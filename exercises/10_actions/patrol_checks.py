@@ -126,6 +126,8 @@ def rejects(recording, parameters):
                 why += (
                     ": goal_callback must return GoalResponse.ACCEPT or GoalResponse.REJECT, and returns something else"
                 )
+            elif said := suspect(recording, "refuses_all"):
+                why += f": {said}"
             return Finding(False, expected, "a good goal was rejected, too", explanation=why)
         return gate
     for goal, words in GOALS.items():
@@ -143,15 +145,18 @@ def visits(recording, parameters):
     _, end = run.period("patrol")
     count, left = run.nearest("patrol", end)
     total = len(run.waypoints("patrol"))
+    over = ("patrol is over: " + MISCONCEPTIONS.obeys(run, end, end + 0.5)) if count == total else ""
     if count == total and (turning := MISCONCEPTIONS.drives_on(run, run.angular.values)) > TURNS_ON:
-        words = "The robot turns on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
+        words = f"The robot turns on when the {over}"
         return Finding(False, expected, f"{turning:.2f} rad/s after the end", end, explanation=words)
     if count == total and (moving := MISCONCEPTIONS.drives_on(run, run.linear.values)) > 0.03:
-        words = "The robot drives on when the patrol is over: it obeys the last command until it gets a Twist of zeros"
+        words = f"The robot drives on when the {over}"
         return Finding(False, expected, f"{moving:.2f} m/s after the end", end, explanation=words)
     if count == total:
         return Finding(True, expected, f"{total} of {total} waypoints")
-    why = MISCONCEPTIONS.reached_early(run, "patrol")
+    if LATER.spoilt(run):
+        return gated(expected, "a second goal was accepted before the patrol was driven to its end")
+    why = LATER.of_a_refused_goal(run) or MISCONCEPTIONS.reached_early(run, "patrol")
     still = not run.linear.values[(run.times > run.period("patrol")[0]) & (run.times < end)].any()
     if still and run.one("result", "patrol") is None and not run.all("feedback", "patrol"):
         why = (
@@ -181,6 +186,10 @@ def speed(recording, parameters):
         right = 0.85 * wanted <= fastest <= 1.12 * wanted
         if not measured or not right:
             measured, at, passed = f"{fastest:.2f} m/s where {wanted:.2f} m/s was asked for", start, right
+    if passed and (slower := LATER.slowed(run)):
+        wanted = run.one("sent", "patrol")["speed"]
+        measured = f"{slower[0]:.2f} m/s after a second goal was rejected, where {wanted:.2f} m/s was asked for"
+        return Finding(False, expected, measured, slower[1], explanation=LATER.of_a_refused_speed(run))
     driven = any(fastest > 0.02 for fastest in fastest_of.values())
     why = "" if passed or not driven else MISCONCEPTIONS.other_speed(run, fastest_of)
     return Finding(passed, expected, measured, None if passed else at, explanation=why)
@@ -199,9 +208,10 @@ def feedback(recording, parameters):
     if run.nearest("patrol", end)[0] < len(points):
         return gated(expected, "the patrol was not driven to its end")
     if not said:
-        return wrong(
-            "no feedback came", end, suspect(recording, "feedback") or "Your server never calls publish_feedback"
-        )
+        why = suspect(recording, "feedback")
+        if suspect(recording, "no_feedback"):
+            why = "Your server never calls publish_feedback"
+        return wrong("no feedback came", end, why)
     if all(each["at"] > end - 0.3 for each in said):
         return wrong("it came at the end only", end, "Your feedback comes only when the patrol is over")
     times = [start, *(each["at"] for each in said), end]
@@ -264,6 +274,12 @@ def endless(run):
     """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
     if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
         return ""
+    driving = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    if len(driving) and driving[-1] > run.end - 0.5 and not still_driving(run, "patrol"):
+        return (
+            "The robot has been at all waypoints, but no result came until the end of the run, and commands still "
+            "come: the loop in execute goes on"
+        )
     return still_driving(run, "patrol") or (
         "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
         "Patrol.Result (a function without return returns None, which is no result)"
@@ -284,7 +300,8 @@ def result(recording, parameters):
     measured = f"{found['status']}, visited = {found['visited']}"
     why = ""
     if found["status"] == "ABORTED":
-        why = "The patrol was driven to its end, but ended as ABORTED: nobody called goal_handle.succeed()"
+        why = "The patrol was driven to its end, but ended as ABORTED: "
+        why += suspect(recording, "ended") or "nobody called goal_handle.succeed()"
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
         why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
     elif found["status"] == "SUCCEEDED" and found["visited"] != total:
@@ -298,7 +315,9 @@ def busy(recording, parameters):
     if gate := no_patrol(run, expected):
         return gate
     if event := run.one("accepted", "second"):
-        return Finding(False, expected, "a second goal was accepted during a patrol", event["at"])
+        so = LATER.spoilt(run)
+        why = f"Your server accepts a second goal during a patrol, which it must reject; {so}" if so else ""
+        return Finding(False, expected, "a second goal was accepted during a patrol", event["at"], explanation=why)
     if not run.one("rejected", "second"):
         return gated(expected, "nobody answered to a second goal")
     for goal in ("cancelled", "again"):
@@ -333,6 +352,10 @@ def cancel(recording, parameters):
     if asked is None:
         return gated(expected, "no goal was there to be cancelled")
     at = asked["at"]
+    if (early := run.one("result", "cancelled")) is not None and early["at"] < at:
+        measured = f"it ended as {early['status']} {at - early['at']:.1f} s before it was to be cancelled"
+        why = LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "cancelled")
+        return Finding(False, expected, measured, early["at"], explanation=why)
     before = run.linear.values[(run.times > at - 1.0) & (run.times <= at)]
     if np.max(before, initial=0.0) < 0.05:
         return gated(expected, "the robot did not drive when the goal was cancelled")
@@ -343,7 +366,7 @@ def cancel(recording, parameters):
     window = (run.times >= at + STOPPED) & (run.times <= at + STOPPED + 0.5)
     moving = float(np.max(np.abs(run.linear.values[window]), initial=0.0))
     if moving > 0.03 and found is not None and found["at"] < at + STOPPED:
-        why = "The goal ended, but the robot drove on: it obeys the last command until it gets a Twist of zeros"
+        why = f"The goal ended, but the robot drove on: {MISCONCEPTIONS.obeys(run, found['at'], at + STOPPED + 0.5)}"
         return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
     if moving > 0.03:
         why = MISCONCEPTIONS.ends_late(run, found, at)

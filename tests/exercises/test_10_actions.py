@@ -284,6 +284,75 @@ def test_a_later_patrol_that_is_at_its_end_and_goes_on():
     assert "its distance is still 0.020 m" in CHECKS["still_driving"](run, "again")
 
 
+def with_a_second(patrol, answer, waypoint=(1.9, 0.5), speed=0.2, at=2.0):
+    patrol.events.append((at, "sent", "second", {"waypoints": [list(waypoint)], "speed": speed}))
+    patrol.events.append((at, answer, "second", {}))
+    return patrol
+
+
+def test_a_second_goal_that_ends_the_patrol_is_what_is_said():
+    patrol = with_a_second(Patrol([[0.4, 0.0]], status="ABORTED"), "accepted", at=1.9)
+    assert found("visits", patrol).gated
+    assert "the patrol under way ended as ABORTED 0.1" in found("busy", patrol).explanation
+    late = with_a_second(Patrol(), "accepted")
+    assert found("visits", late).passed and not found("busy", late).explanation
+
+
+def test_a_second_goal_to_which_the_robot_turns():
+    taken = with_a_second(Patrol([[0.6, 0.0], [1.9, 0.5]], status=""), "accepted")
+    assert "the robot left the patrol under way for its waypoint" in found("busy", taken).explanation
+    refused = with_a_second(Patrol([[0.6, 0.0], [1.9, 0.5]], status=""), "rejected")
+    assert "was rejected, but the robot drives to its waypoint" in found("visits", refused).explanation
+
+
+def test_a_rejected_goal_whose_speed_is_taken():
+    patrol = with_a_second(Patrol(), "rejected")
+    assert found("speed", patrol).passed
+    patrol.signals["truth/robot/linear_x"] = np.where(patrol.times > 2.2, 0.2, patrol.signals["truth/robot/linear_x"])
+    assert "the robot goes on at its speed" in found("speed", patrol).explanation
+
+
+def test_a_heading_in_degrees():
+    patrol = Patrol([[1.2, 0.0], [3.2, 0.0]], status="")
+    direction = np.arctan2(0.7 - patrol.way[:, 1], 1.21 - patrol.way[:, 0])
+    patrol.signals["truth/robot/yaw"] = np.where(patrol.times > FROM, direction / 57.3, 0.0)
+    patrol.signals["truth/robot/angular_z"] = 0.03 + 0 * patrol.times
+    assert "its heading is in degrees" in found("visits", patrol).explanation
+
+
+def test_a_robot_that_circles_around_the_waypoint():
+    patrol = Patrol([[1.2, 0.0], [3.2, 0.0]], status="")
+    patrol.signals["truth/robot/angular_z"] = 0.3 + 0 * patrol.times
+    assert "but drives on although the waypoint is" in found("visits", patrol).explanation
+
+
+def test_a_cancelled_goal_that_had_ended_before():
+    patrol = Patrol()
+    patrol.events += [
+        (2.0, "sent", "cancelled", {"waypoints": POINTS, "speed": 0.3}),
+        (2.0, "accepted", "cancelled", {}),
+    ]
+    ended = {"status": "SUCCEEDED", "visited": 0}
+    patrol.events += [(2.1, "result", "cancelled", ended), (4.0, "cancel", "cancelled", {})]
+    patrol.events.append((4.1, "not_cancelling", "cancelled", {}))
+    finding = found("cancel", patrol)
+    assert "refuses to cancel" not in finding.explanation and "before it was to be cancelled" in finding.measured
+
+
+def test_what_is_said_of_the_end_is_seen():
+    patrol = Patrol(after=0.1)
+    assert "other than zero came after the end" in found("visits", patrol).explanation
+    patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"][: round(patrol.end / STEP)]
+    assert "until it gets a Twist of zeros" in found("visits", patrol).explanation
+
+
+def test_a_patrol_that_goes_on_until_the_end_has_no_missing_succeed():
+    patrol = Patrol(status="")
+    assert "commands still come" in found("result", patrol).explanation
+    patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"][: round(patrol.end / STEP)]
+    assert "execute must call goal_handle.succeed()" in found("result", patrol).explanation
+
+
 def test_a_distance_that_is_no_float():
     patrol = Patrol()
     patrol.facts = lambda: {"suspects": [{"line": 7, "about": "feedback", "said": "round(left) is a whole number"}]}

@@ -6,12 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, called
+from gz_course.grader.lint.syntax import Place, assigned, called, functions, last_name
 
 # Position of each callback among the arguments; -1 for those that are given by name only.
 PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
 DRIVES = frozenset({"publish", "sleep"})  # what a loop calls that drives
 SPINS = frozenset({"rclpy.spin_once", "rclpy.spin", "rclpy.spin_until_future_complete"})
+FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
+SPEAKS = frozenset({"publish", "publish_feedback"})
+PAUSES = frozenset({"sleep", "wait", "wait_for", "spin_once", "join", "get", "sleep_for", "sleep_until", "acquire"})
+LOCKS = frozenset({"Lock", "RLock", "Semaphore"})
 ENDS = ("succeed", "abort", "canceled")
 ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 
@@ -158,7 +162,63 @@ def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+def without_a_pause(tree: ast.AST) -> Iterator[Place]:
+    """Find a loop in execute that publishes as fast as the computer can."""
+    sleeping = {each.name for each in ast.walk(tree) if isinstance(each, FUNCTIONS) and _pauses(each)}
+    speaking = {each.name for each in ast.walk(tree) if isinstance(each, FUNCTIONS) and called(each) & SPEAKS}
+    for role, function in _callbacks(tree):
+        if role != "execute_callback" or isinstance(function, ast.Lambda):
+            continue
+        inner = (each for each in ast.walk(function) if isinstance(each, ast.While))
+        for loop in inner:
+            if called(loop) & (SPEAKS | speaking) and not _pauses(loop) and not called(loop) & sleeping:
+                yield (
+                    loop.lineno,
+                    "this loop publishes without a pause, as often as the computer can, and leaves no time to the "
+                    "callbacks: call time.sleep(0.1) in every round",
+                )
+                return
+
+
+def _pauses(node: ast.AST) -> bool:
+    awaits = any(isinstance(each, ast.Await) for each in ast.walk(node))
+    return awaits or bool(called(node) & PAUSES)
+
+
+def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
+    """Find a lock that is held while a loop sleeps, in a file where a callback waits for the same lock."""
+    made = {ast.unparse(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in LOCKS}
+    for function in (each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)):
+        for lock, line, held in _held(function):
+            sleeps = any(isinstance(n, ast.While | ast.For) and _pauses(n) for part in held for n in ast.walk(part))
+            others = (each for each in functions(tree) if each is not function)
+            waits = next((each for each in others if any(name == lock for name, _, _ in _held(each))), None)
+            if lock in made and sleeps and waits is not None:
+                yield (
+                    line,
+                    f"{lock} is held during the whole loop, and {waits.name}() waits for it as long: take the lock "
+                    "inside of the loop, only to read or to write",
+                )
+
+
+def _held(function: ast.FunctionDef) -> Iterator[tuple[str, int, list[ast.stmt]]]:
+    """Yield each lock that a function takes, the line, and the statements that run while it holds the lock."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.With):
+            for item in node.items:
+                yield ast.unparse(item.context_expr), node.lineno, node.body
+    for number, statement in enumerate(function.body):
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        if isinstance(call, ast.Call) and last_name(call.func) == "acquire":
+            lock, held = ast.unparse(call.func).rpartition(".")[0], []
+            for later in function.body[number + 1 :]:
+                if f"{lock}.release()" in ast.unparse(later):
+                    break
+                held.append(later)
+            yield lock, statement.lineno, held
+
+
 LOOKS = (
     answers, no_result, keeps_the_only_thread, spins_itself, ended_by_the_answer, never_executed,
-    ends_before_it_drives,
+    ends_before_it_drives, without_a_pause, keeps_a_lock,
 )  # fmt: skip

@@ -66,8 +66,6 @@ def changed_while_read(tree: ast.AST) -> Iterator[Place]:
         if not isinstance(over, ast.Name | ast.Attribute):
             continue
         name = ast.unparse(over)
-        if any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop)):
-            continue
         for node in ast.walk(loop):
             call = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in CHANGES
             taken = call and ast.unparse(node.func.value) == name  # type: ignore[attr-defined]
@@ -75,13 +73,25 @@ def changed_while_read(tree: ast.AST) -> Iterator[Place]:
                 taken = any(
                     isinstance(each, ast.Subscript) and ast.unparse(each.value) == name for each in node.targets
                 )
-            if taken:
+            if taken and not _leaves_after(loop.body, node):
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
                     f"this changes {name} while the loop in line {loop.lineno} runs over it: what follows moves up, so "
                     "the loop skips the next element; make a new list of those that are to stay",
                 )
                 break
+
+
+def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
+    """Return whether a loop is left for certain after a node in one of its blocks."""
+    for number, statement in enumerate(block):
+        if any(each is node for each in ast.walk(statement)):
+            later = block[number:]
+            inner = (getattr(statement, part, []) for part in ("body", "orelse", "finalbody"))
+            return any(isinstance(each, ast.Break | ast.Return) for each in later) or any(
+                _leaves_after(each, node) for each in inner if isinstance(each, list)
+            )
+    return False
 
 
 def compared_with_nan(tree: ast.AST) -> Iterator[Place]:

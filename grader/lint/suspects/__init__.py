@@ -17,6 +17,7 @@ from gz_course.grader.lint.suspects import (
     drives,
     farthest,
     feedback,
+    goal_flags,
     goals,
     gyroscopes,
     headings,
@@ -30,6 +31,7 @@ from gz_course.grader.lint.suspects import (
     smoothing,
     stale_parameters,
     steering_units,
+    waypoint_loops,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -52,10 +54,12 @@ LOOKS = (
     *steering_units.LOOKS,
     *farthest.LOOKS,
     *goals.LOOKS,
+    *goal_flags.LOOKS,
     *old_values.LOOKS,
     *drives.LOOKS,
     *hidden_errors.LOOKS,
     *ways.LOOKS,
+    *waypoint_loops.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -118,6 +118,21 @@ def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an index of a feedback that is a quotient or is made a float, where the field is an int32."""
+    given = [(each.value, each.arg) for each in ast.walk(tree) if isinstance(each, ast.keyword)]
+    given += [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
+    for value, field in given:
+        quotient = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div)
+        if field == "waypoint" and (quotient or (isinstance(value, ast.Call) and last_name(value.func) == "float")):
+            yield (
+                value.lineno,
+                "feedback",
+                f"{ast.unparse(value)} is a float, and the field waypoint is an int32, which rclpy cannot send it as: "
+                "give it a whole number",
+            )
+
+
 def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
     """Yield each function that ends goals, with the attributes that `__init__` alone assigns, and what."""
     assigned: dict[str, list[tuple[str, str]]] = {}
@@ -178,6 +193,7 @@ LOOKS = (
     limits_excluded,
     aborted_when_cancelled,
     whole_distances,
+    broken_indices,
     lists_that_grow,
     counters_that_go_on,
 )

@@ -12,6 +12,8 @@ Suspect = tuple[int, str, str]
 ASKS = "is_cancel_requested"
 ANGLE = re.compile(r"turn|err|angle|diff|delta|alpha|beta")
 STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
+WAITS = frozenset({"sleep", "spin_once", "ok", "time", "monotonic", "now", "get_clock", "wait_for_server"})
+LOGS = frozenset({"get_logger", "debug", "info", "warn", "warning", "error", "print"})
 Loop = ast.While | ast.For
 
 
@@ -40,6 +42,8 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
     for loop in ast.walk(tree):
         if not isinstance(loop, Loop) or not called(loop) & STEPS or _asks(loop) or called(loop) & askers:
             continue
+        if not set().union(*map(called, loop.body)) - WAITS - LOGS:
+            continue  # it only waits, such as for the first message
         if any(isinstance(each, Loop) and each is not loop and called(each) & STEPS for each in ast.walk(loop)):
             continue
         around = any(isinstance(n, Loop) and loop in ast.walk(n) and lines[0] in _asks(n) for n in ast.walk(tree))

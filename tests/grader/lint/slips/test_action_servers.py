@@ -99,3 +99,39 @@ def test_a_coroutine_that_never_awaits_keeps_the_only_thread():
 )
 def test_what_a_callback_of_an_action_server_must_not_do(old, new, words):
     assert words in " ".join(each["said"] for each in slips(RIGHT.replace(old, new, 1).encode()))
+
+
+SPEAKS = "            self.publisher.publish(Twist())\n            time.sleep(0.1)\n"
+SPEAKING = RIGHT.replace("            time.sleep(0.1)\n", SPEAKS)
+
+
+def test_a_loop_without_a_pause():
+    assert slips(SPEAKING.encode()) == []
+    alone = SPEAKING.replace("            time.sleep(0.1)\n", "")
+    assert "publishes without a pause" in slips(alone.encode())[0]["said"]
+    pause = "    def pause(self):\n        time.sleep(0.1)\n\n    def execute"
+    helper = SPEAKING.replace("time.sleep(0.1)", "self.pause()", 1).replace("    def execute", pause)
+    assert slips(helper.encode()) == []
+
+
+@pytest.mark.parametrize("held", ["with self.lock:", "if self.lock.acquire():"])
+def test_a_lock_that_is_held_during_a_loop(held):
+    made = SPEAKING.replace("        self.server =", "        self.lock = threading.Lock()\n        self.server =")
+    other = "    def on_odometry(self, message):\n        with self.lock:\n            self.place = message\n\n"
+    both = made.replace("    def execute", f"{other}    def execute")
+    assert slips(both.encode()) == []
+    loop = "        while self.left() > 0.1:\n" + SPEAKS
+    if held.startswith("with"):
+        inside = f"        {held}\n" + "".join(f"    {line}\n" for line in loop.splitlines())
+    else:
+        inside = "        self.lock.acquire()\n" + loop + "        self.lock.release()\n"
+    changed = both.replace(loop, inside)
+    assert "self.lock is held during the whole loop, and on_odometry() waits" in slips(changed.encode())[0]["said"]
+
+
+@pytest.mark.parametrize(("default", "found"), [("0.5", False), ("1", True), ("'0.5'", True), ("None", False)])
+def test_a_value_of_a_parameter_of_another_type(default, found):
+    text = (
+        f"self.declare_parameter('v', {default})\nself.v = self.get_parameter('v').get_parameter_value().double_value\n"
+    )
+    assert any("double_value of the parameter v" in each["said"] for each in slips(text.encode())) == found
