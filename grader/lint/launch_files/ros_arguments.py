@@ -64,14 +64,15 @@ def _words(file: LaunchFile, given: ast.expr, scope: ast.AST, depth: int) -> Ite
 def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     """Return the lists that a function puts together under a name, or that the file assigns once; else nothing."""
     found: list[tuple[int, ast.expr]] = []
+    grows = [(name, method) for method in GROWS]
     for node in ast.walk(scope) if scope is not file.tree else ():
         if isinstance(node, ast.Assign | ast.AugAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             if name in [ast.unparse(target) for target in targets]:
                 found.append((node.lineno, node.value))
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.args:
-            if ast.unparse(node.func.value) == name and (how := node.func.attr) in GROWS:
-                found.append((node.lineno, node.args[0] if how == "extend" else ast.List(node.args[-1:], ast.Load())))
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[::2] in grows and node.args:
+            extends = ast.unparse(node.func).endswith(".extend")
+            found.append((node.lineno, node.args[0] if extends else ast.List(node.args[-1:], ast.Load())))
     if found:
         return [value for _, value in sorted(found, key=lambda each: each[0])]
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
