@@ -184,7 +184,10 @@ def own_topics(recording, parameters):
             return Finding(False, expected, f"{len(here)} bridges have {topic}: every message is carried as often")
         if here[0].gz_topic != gz_topic:
             measured = f"{topic} is bridged with {here[0].gz_topic}, not with {gz_topic}"
-            return Finding(False, expected, measured, explanation="these are two different robots")
+            why = "these are two different robots"
+            if here[0].gz_topic.startswith(f"/model/{name_in(topic)}/"):
+                why = f"DiffDrive has no such topic in Gazebo: it is called {gz_topic}"
+            return Finding(False, expected, measured, explanation=why)
         if here[0].direction != direction:
             why = "commands go from ROS to Gazebo, ]" if topic.endswith(DRIVES) else "odometry comes from Gazebo, ["
             measured = f"{topic} has the direction {here[0].direction}, not {direction}"

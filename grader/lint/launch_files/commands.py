@@ -42,7 +42,7 @@ def _commands(file: LaunchFile) -> Iterator[list[ast.expr]]:
 def glued_words(file: LaunchFile) -> Iterator[Place]:
     """Find several words of a command line in one item of the list."""
     for words in _commands(file):
-        for word in words:
+        for word in _spread(words):
             said = text(file.value(word))
             parts = said.split()
             if len(parts) > 1 and OPTION.match(parts[0]):
@@ -51,6 +51,12 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     word.lineno,
                     f"{said.strip()!r} is one word here, with spaces in it: the program gets it as a single "
                     f"argument. Each word is an item of its own: {apart}",
+                )
+            elif glued := _option_and_value(file.value(word)):
+                yield (
+                    word.lineno,
+                    f"{ast.unparse(word)[:60]} is one word here, with a space in it: the program gets it as a single "
+                    f"argument, which it does not know. {glued} and its value are two items of the list",
                 )
             elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in ast.walk(word)):
                 yield (
@@ -72,6 +78,23 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     "join() makes a single word of several, with spaces in it: each word of a command is an item of "
                     "its own in the list",
                 )
+
+
+def _spread(words: list[ast.expr]) -> Iterator[ast.expr]:
+    """Yield the words of a command, those that a star puts into it among them."""
+    for each in words:
+        inside = each.value if isinstance(each, ast.Starred) else None
+        yield from _spread(inside.elts) if isinstance(inside, ast.List | ast.Tuple) else (each,)
+
+
+def _option_and_value(word: ast.expr | None) -> str:
+    """Return the option that a text made of parts begins with, such as -x of `f"-x {x}"`; empty if it is none."""
+    first = word.values[0] if isinstance(word, ast.JoinedStr) and word.values else None
+    first = word.left if isinstance(word, ast.BinOp) and isinstance(word.op, ast.Add | ast.Mod) else first
+    while isinstance(first, ast.BinOp):
+        first = first.left
+    said = text(first)
+    return said.split()[0] if OPTION.match(said) and " " in said and "--ros-args" not in said else ""
 
 
 def _joined(word: ast.expr | None) -> bool:
