@@ -41,7 +41,7 @@ def test_a_right_file_has_none():
         (
             "number):\n    process",
             'number, words=["-a"]):\n    words += ["-b"]\n    process',
-            "words grows from call to",
+            "is made once",
         ),
         ("number):\n    process", 'number, words=["-a"]):\n    words = words + ["-b"]\n    process', ""),
     ],
