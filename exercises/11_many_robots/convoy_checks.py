@@ -25,6 +25,7 @@ STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
 NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 HEADING = "its own heading"  # words of an explanation that a line of the file may say better
 DRIVES, HEARS = "cmd_vel", "odom"
+ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
@@ -347,12 +348,7 @@ def keeps_together(recording, parameters):
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
             elif not recording.has(f"topics/{name}/{DRIVES}/count"):
                 why = f"its node publishes nothing on /{name}/{DRIVES}"
-                weak = [e for e in recording.facts().get("endpoints", []) if e["topic"] == f"/{name}/{DRIVES}"]
-                if any(e["kind"] == "publisher" and e["reliability"] == "BEST_EFFORT" for e in weak):
-                    why = (
-                        f"its publisher on /{name}/{DRIVES} offers the reliability BEST_EFFORT, and the bridge asks "
-                        "for RELIABLE, so not one command arrives: use the default QoS, a depth of 10"
-                    )
+                why = ENDS["unheard"](recording.facts().get("endpoints", []), name, front) or why
                 if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
                     why = "no bridge carries /clock, so the timer of a node with use_sim_time never fires"
                     if wrong := next((b for b in bridges(recording) if b.ros_topic == "/clock"), None):

@@ -282,3 +282,23 @@ def test_from_where_on_a_follower_drives():
         rule(lambda h: speed_of(distance(h) - GAP) if abs(wrapped(bearing(h) - h.heading)) < 0.05 else 0.0), "speed"
     )
     assert "rad to the side, and falls behind" in facing
+
+
+@pytest.mark.parametrize(
+    ("end", "words"),
+    [
+        (("subscription", "/robot1/odom", "geometry_msgs/msg/PoseStamped", "RELIABLE", "VOLATILE"), "equal types only"),
+        (("publisher", "/robot2/cmd_vel", "geometry_msgs/msg/TwistStamped", "RELIABLE", "VOLATILE"), "publisher on"),
+        (("publisher", "/robot2/cmd_vel", "geometry_msgs/msg/Twist", "BEST_EFFORT", "VOLATILE"), "BEST_EFFORT"),
+        (("subscription", "/robot2/odom", "nav_msgs/msg/Odometry", "RELIABLE", "TRANSIENT_LOCAL"), "does not offer"),
+        (("subscription", "/robot2/odom", "nav_msgs/msg/Odometry", "BEST_EFFORT", "VOLATILE"), ""),
+        (("subscription", "/clock", "rosgraph_msgs/msg/Clock", "BEST_EFFORT", "VOLATILE"), ""),
+    ],
+)
+def test_types_and_qualities_that_do_not_meet(end, words):
+    kind, topic, type_, reliability, durability = end
+    facts = {"node": "/robot2/follower", "kind": kind, "topic": topic, "type": type_}
+    said = CHECKS["ENDS"]["unheard"](
+        [facts | {"reliability": reliability, "durability": durability}], "robot2", "robot1"
+    )
+    assert words in said and bool(words) == bool(said)
