@@ -23,7 +23,9 @@ OF_A_ROBOT = re.compile(r"/robot\d+/")
 NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
 STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
 NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
+HEADING = "its own heading"  # words of an explanation that a line of the file may say better
 DRIVES, HEARS = "cmd_vel", "odom"
+ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
@@ -184,7 +186,10 @@ def own_topics(recording, parameters):
             return Finding(False, expected, f"{len(here)} bridges have {topic}: every message is carried as often")
         if here[0].gz_topic != gz_topic:
             measured = f"{topic} is bridged with {here[0].gz_topic}, not with {gz_topic}"
-            return Finding(False, expected, measured, explanation="these are two different robots")
+            why = "these are two different robots"
+            if here[0].gz_topic.startswith(f"/model/{name_in(topic)}/"):
+                why = f"DiffDrive has no such topic in Gazebo: it is called {gz_topic}"
+            return Finding(False, expected, measured, explanation=why)
         if here[0].direction != direction:
             why = "commands go from ROS to Gazebo, ]" if topic.endswith(DRIVES) else "odometry comes from Gazebo, ["
             measured = f"{topic} has the direction {here[0].direction}, not {direction}"
@@ -301,11 +306,10 @@ def _reason(sent):
     """Return the misconception that fits the commands of a follower; empty if none does."""
     if said := FITS["seen_elsewhere"](sent):
         return said
-    speed, turning = FITS["speed"](sent), FITS["turning"](sent)
-    if FITS["PLACES"] in speed:
-        turning = ""  # the same fault
+    speed = FITS["speed"](sent)
+    turning = "" if speed else FITS["turning"](sent)  # a wrong place makes both wrong
     turns = f"it turns another way than to the place of the robot in front: {turning}" if turning else ""
-    return "; and ".join(filter(None, (speed, turns)))
+    return speed or turns
 
 
 def _too_seldom(recording, name):
@@ -336,18 +340,15 @@ def keeps_together(recording, parameters):
         sent = FITS["heard"](recording, name, front)
         if driven[name] < 0.3:
             why = "its node publishes no speed above zero"
-            if said := suspect(recording, "first_kept") or (FITS["seen_elsewhere"](sent) if sent else ""):
+            seen = suspect(recording, "first_kept") or (FITS["seen_elsewhere"](sent) if sent else "")
+            if said := seen or FITS["ORIGINS"]["sideways"](recording, name):
                 why = f"its node publishes no speed above zero: {said}"
             elif sent and (said := FITS["speed"](sent)):
+                said = suspect(recording, "gap") or said
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
             elif not recording.has(f"topics/{name}/{DRIVES}/count"):
                 why = f"its node publishes nothing on /{name}/{DRIVES}"
-                weak = [e for e in recording.facts().get("endpoints", []) if e["topic"] == f"/{name}/{DRIVES}"]
-                if any(e["kind"] == "publisher" and e["reliability"] == "BEST_EFFORT" for e in weak):
-                    why = (
-                        f"its publisher on /{name}/{DRIVES} offers the reliability BEST_EFFORT, and the bridge asks "
-                        "for RELIABLE, so not one command arrives: use the default QoS, a depth of 10"
-                    )
+                why = ENDS["unheard"](recording.facts().get("endpoints", []), name, front) or why
                 if not any(bridge.ros_topic == "/clock" and bridge.to_ros for bridge in bridges(recording)):
                     why = "no bridge carries /clock, so the timer of a node with use_sim_time never fires"
                     if wrong := next((b for b in bridges(recording) if b.ros_topic == "/clock"), None):
@@ -356,7 +357,10 @@ def keeps_together(recording, parameters):
                             "timers of its nodes never fire: it comes from Gazebo, [gz.msgs.Clock"
                         )
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reason = suspect(recording, "first_kept") or (_reason(sent) if sent else "")
+        reason = suspect(recording, "first_kept") or FITS["ORIGINS"]["sideways"](recording, name)
+        reason = reason or (_reason(sent) if sent else "")
+        if HEADING in reason:
+            reason = suspect(recording, "heading", "angle") or reason
         reason = reason or _too_seldom(recording, name) or suspect(recording, "heading", "angle")
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]

@@ -4,10 +4,13 @@ Each candidate is a quantity that such a node computes from the two odometries i
 a multiple of it, up to its limits: a straight line through the commands between the limits tells whether it fits.
 """
 
+import runpy
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+ORIGINS = runpy.run_path(str(Path(__file__).with_name("follower_origins.py")))
 GAP = 1.2  # [m]
 FEWEST = 8  # commands; fewer may fit a line by chance
 DELAYS = (0, 50_000_000, 100_000_000)  # [ns] between what a node has heard and what it sends: its timer may fire first
@@ -120,7 +123,16 @@ def _angles(h):
     bearing = np.arctan2(h.aside, h.ahead)
     begins = np.arctan2(h.front_y - h.y, h.front_x - h.x)
     half = h.heading / 2
-    yield wrapped(bearing), "it turns by the direction to the robot in front, and does not subtract its own heading"
+    yield (
+        wrapped(bearing),
+        "it turns by the direction to the robot in front, and does not subtract its own heading, or one that is always "
+        "0, as from orientation.x or .y",
+    )
+    yield (
+        np.pi / 2 - wrapped(bearing - h.heading),
+        "it exchanges the arguments of atan2: the angle to a place is atan2(y, x)",
+    )
+    yield wrapped(np.arctan2(h.front_y + GAP - h.y, h.front_x - h.x) - h.heading), "it adds the 1.2 m to y, not to x"
     yield (
         wrapped(bearing - np.sin(half)),
         "it takes orientation.z, the sine of half its heading, for its heading: that is 2 * atan2(z, w)",
@@ -155,14 +167,14 @@ def speed(every):
         return _constant(every[0])
     if any(copied(v, h.front_linear) for h in every):
         return "its speed is that of the robot in front, whatever the distance"
-    if words := _summed(every) or _pauses(every):
+    if words := _summed(every):
         return words
     right = _closest([(h.distance, "") for h in every], v)
     fits = right is not None and right[2] > FITS
     if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
-        return _of_the_gap(v, *right[:2])
-    other = _best([each for h in every for each in _lengths(h)], v, right)
-    return other or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
+        return _pauses(every) or _of_the_gap(v, *right[:2])
+    other = ORIGINS["begun_elsewhere"](every, line) or _best([each for h in every for each in _lengths(h)], v, right)
+    return other or _pauses(every) or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
 
 
 def seen_elsewhere(every):
@@ -213,6 +225,14 @@ def _lengths(h):
     )
     yield h.ahead, "its speed depends on the distance along x only, not on the distance to the robot in front"
     yield h.front_x - h.x, f"its speed depends on the difference of the two x only, and {PLACES}"
+    yield (
+        np.hypot(h.front_x - h.x, h.front_y + GAP - h.y),
+        "it adds the 1.2 m to y: the robot in front began 1.2 m ahead, along x",
+    )
+    yield (
+        np.hypot(h.front_linear + GAP - h.x, h.y),
+        "it takes the speed of the robot in front, twist, for its place, which is pose.pose.position",
+    )
     yield np.abs(h.ahead) + np.abs(h.aside), "it adds the distances along x and y: the distance is hypot(x, y)"
 
 
@@ -222,12 +242,15 @@ def _pauses(every):
     zero = np.abs(every[0].linear) < 1e-6
     if zero.all():
         return ""
+    far = distance > GAP + 2 * WIDE
+    if far.sum() >= FEWEST and np.mean(zero[far]) > 0.2 and (why := ORIGINS["drives_from"](every)):
+        return f"{100 * np.mean(zero[far]):.0f} % of its speeds are zero although it is behind: {why}"
     behind = distance > max(GAP + WIDE, np.median(distance[~zero]))  # it drives when it is nearer
     if behind.sum() < FEWEST or not 0.2 < np.mean(zero[behind]) < SHARE or np.sum(~zero & behind) < 3:
         return ""
     return (
         f"{100 * np.mean(zero[behind]):.0f} % of its speeds are zero although it is behind: the condition under which "
-        "it drives, such as to face that robot, seldom holds; drive and turn at once, or let the angle be larger"
+        "it drives seldom holds"
     )
 
 
@@ -258,7 +281,7 @@ def _constant(h):
             return ""
         return (
             f"it sends no speed above zero, even when it is {h.distance.max():.1f} m behind: that is so with a speed "
-            "made of gap - distance; it is distance - gap"
+            "made of gap - distance, where it is distance - gap, and with a condition that holds only when it is near"
         )
     return f"it sends linear.x {v:.2f} m/s all the time, whatever the distance is"
 

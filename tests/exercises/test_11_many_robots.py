@@ -104,6 +104,9 @@ def test_a_good_follower_has_no_misconception(delay):
         (lambda h: speed_of(distance(h) - GAP, least=0.2), "never drives slower than 0.20 m/s"),
         (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y - h.y) - GAP), "begins where its own robot began"),
         (lambda h: h.v, "its speed is that of the robot in front"),
+        (lambda h: speed_of(np.hypot(h.front_x + 2.4 - h.x, h.aside) - GAP), "to have begun 2.4 m ahead"),
+        (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y + GAP - h.y) - GAP), "adds the 1.2 m to y"),
+        (lambda h: speed_of(np.hypot(h.v + GAP - h.x, h.y) - GAP), "takes the speed of the robot in front, twist"),
     ],
 )
 def test_a_wrong_speed_is_explained(speed, words):
@@ -261,3 +264,41 @@ def test_a_robot_that_begins_turned_is_not_in_its_row():
 
     assert CHECKS["in_a_row"](recorded(0.0), {}).passed
     assert "-Y of create turn a robot" in CHECKS["in_a_row"](recorded(3.14), {}).explanation
+
+
+def test_a_field_that_the_robot_does_not_obey():
+    run = Run(rule(lambda h: 0.0))
+    assert FITS["ORIGINS"]["sideways"](run, "robot2") == ""
+    run.signals["topics/robot2/cmd_vel/linear/y"] = (np.arange(3.0), np.full(3, 0.4))
+    assert "it sends linear.y and no linear.x" in FITS["ORIGINS"]["sideways"](run, "robot2")
+    run.signals["topics/robot2/cmd_vel/linear/x"] = (np.arange(3.0), np.full(3, 0.4))
+    assert FITS["ORIGINS"]["sideways"](run, "robot2") == ""
+
+
+def test_from_where_on_a_follower_drives():
+    near = told(rule(lambda h: speed_of(distance(h) - GAP) if distance(h) > 2.0 else 0.0), "speed")
+    assert "it drives only from a distance of about 2.0 m on" in near
+    facing = told(
+        rule(lambda h: speed_of(distance(h) - GAP) if abs(wrapped(bearing(h) - h.heading)) < 0.05 else 0.0), "speed"
+    )
+    assert "rad to the side, and falls behind" in facing
+
+
+@pytest.mark.parametrize(
+    ("end", "words"),
+    [
+        (("subscription", "/robot1/odom", "geometry_msgs/msg/PoseStamped", "RELIABLE", "VOLATILE"), "equal types only"),
+        (("publisher", "/robot2/cmd_vel", "geometry_msgs/msg/TwistStamped", "RELIABLE", "VOLATILE"), "publisher on"),
+        (("publisher", "/robot2/cmd_vel", "geometry_msgs/msg/Twist", "BEST_EFFORT", "VOLATILE"), "BEST_EFFORT"),
+        (("subscription", "/robot2/odom", "nav_msgs/msg/Odometry", "RELIABLE", "TRANSIENT_LOCAL"), "does not offer"),
+        (("subscription", "/robot2/odom", "nav_msgs/msg/Odometry", "BEST_EFFORT", "VOLATILE"), ""),
+        (("subscription", "/clock", "rosgraph_msgs/msg/Clock", "BEST_EFFORT", "VOLATILE"), ""),
+    ],
+)
+def test_types_and_qualities_that_do_not_meet(end, words):
+    kind, topic, type_, reliability, durability = end
+    facts = {"node": "/robot2/follower", "kind": kind, "topic": topic, "type": type_}
+    said = CHECKS["ENDS"]["unheard"](
+        [facts | {"reliability": reliability, "durability": durability}], "robot2", "robot1"
+    )
+    assert words in said and bool(words) == bool(said)

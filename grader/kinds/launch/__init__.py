@@ -40,10 +40,10 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     own = (*exercise.parts, MANIFEST)
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
     files = submission.files | {path.name: path.read_bytes() for path in beside}
-    return RunPlan(submission.main, files, facts=_places(submission))
+    return RunPlan(submission.main, files, facts=_places(submission, exercise.duration))
 
 
-def _places(submission: Submission) -> dict[str, list[dict[str, Any]]]:
+def _places(submission: Submission, duration: float) -> dict[str, list[dict[str, Any]]]:
     """Return what the linters find, by kind, with the name of the file."""
     found: dict[str, list[dict[str, Any]]] = {}
     for name, content in submission.files.items():
@@ -51,7 +51,11 @@ def _places(submission: Submission) -> dict[str, list[dict[str, Any]]]:
             places = (
                 launch_places(content, submission.files)
                 if name == submission.main
-                else {"slips": slips(content), "suspects": suspects(content), "before_speeds": before_speeds(content)}
+                else {
+                    "slips": slips(content, duration),
+                    "suspects": suspects(content),
+                    "before_speeds": before_speeds(content),
+                }
             )
             for kind, each in places.items():
                 found.setdefault(kind, []).extend({"file": shown(name)} | place for place in each)

@@ -10,13 +10,22 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from gz_course.grader.lint.launch_files import actions, commands, creating, unread, values
+from gz_course.grader.lint.launch_files import (
+    actions,
+    commands,
+    creating,
+    namespaces,
+    ros_arguments,
+    unread,
+    values,
+)
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.conditions import bridges, simulators
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
 from gz_course.grader.lint.slips.late_binding import late_bound
+from gz_course.grader.lint.slips.scan_callbacks import kept_defaults
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most
@@ -36,8 +45,11 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
 
     def look(tree: ast.Module) -> Places:
         file = LaunchFile(tree)
-        looks = (*values.LOOKS, *actions.LOOKS, *creating.LOOKS, *commands.LOOKS)
+        looks = (
+            *values.LOOKS, *actions.LOOKS, *creating.LOOKS, *commands.LOOKS, *ros_arguments.LOOKS, *namespaces.LOOKS,
+        )  # fmt: skip
         slips = [place for look in looks for place in look(file)]
+        slips += [*kept_defaults(tree), *namespaces.slashes_in_rules(file, nodes)]
         slips += [*late_bound(tree), *missing_commas(content), *unread.undeclared_parameters(file, nodes)]
         slips += [place for look in unread.LOOKS for place in look(file)]
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]

@@ -31,7 +31,7 @@ def _commands(file: LaunchFile) -> Iterator[list[ast.expr]]:
 def glued_words(file: LaunchFile) -> Iterator[Place]:
     """Find several words of a command line in one item of the list."""
     for words in _commands(file):
-        for word in words:
+        for word in _spread(words):
             said = text(file.value(word))
             parts = said.split()
             if len(parts) > 1 and OPTION.match(parts[0]):
@@ -40,6 +40,12 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     word.lineno,
                     f"{said.strip()!r} is one word here, with spaces in it: the program gets it as a single "
                     f"argument. Each word is an item of its own: {apart}",
+                )
+            elif glued := _option_and_value(file.value(word)):
+                yield (
+                    word.lineno,
+                    f"{ast.unparse(word)[:60]} is one word here, with a space in it: the program gets it as a single "
+                    f"argument, which it does not know. {glued} and its value are two items of the list",
                 )
             elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in ast.walk(word)):
                 yield (
@@ -63,6 +69,23 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                 )
 
 
+def _spread(words: list[ast.expr]) -> Iterator[ast.expr]:
+    """Yield the words of a command, those that a star puts into it among them."""
+    for each in words:
+        inside = each.value if isinstance(each, ast.Starred) else None
+        yield from _spread(inside.elts) if isinstance(inside, ast.List | ast.Tuple) else (each,)
+
+
+def _option_and_value(word: ast.expr | None) -> str:
+    """Return the option that a text made of parts begins with, such as -x of `f"-x {x}"`; empty if it is none."""
+    first = word.values[0] if isinstance(word, ast.JoinedStr) and word.values else None
+    first = word.left if isinstance(word, ast.BinOp) and isinstance(word.op, ast.Add | ast.Mod) else first
+    while isinstance(first, ast.BinOp):
+        first = first.left
+    said = text(first)
+    return said.split()[0] if OPTION.match(said) and " " in said and "--ros-args" not in said else ""
+
+
 def _joined(word: ast.expr | None) -> bool:
     """Whether an expression joins words of a command to one text, with spaces between them."""
     method = word.func if isinstance(word, ast.Call) else None
@@ -74,7 +97,7 @@ def _joined(word: ast.expr | None) -> bool:
 
 def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
     """Find `name:=value` without the words that make it a parameter."""
-    for call, words in _of_processes(file):
+    for words in _of_processes(file):
         if any(isinstance(word, ast.Starred) for word in words):
             continue  # the words of another list come in between
         said = [text(word) for word in words]
@@ -90,22 +113,16 @@ def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
                 continue
             if before not in ("-p", "--param") and value.startswith(f"{SIM_TIME}:="):
                 yield word.lineno, f"-p is missing before {value!r}: without it, this is no parameter"
-            elif before in ("-p", "--param") and "--ros-args" not in said and last_name(call.func) != "Node":
-                yield (
-                    word.lineno,
-                    f"--ros-args is missing before -p {value}: words before it belong to the program, and ROS does not "
-                    "read them",
-                )
             elif before in ("-p", "--param") and ":=" not in value:
                 yield word.lineno, f"a parameter is written NAME:=VALUE, with := and no spaces: {SIM_TIME}:=true"
 
 
-def _of_processes(file: LaunchFile) -> Iterator[tuple[ast.Call, list[ast.expr]]]:
+def _of_processes(file: LaunchFile) -> Iterator[list[ast.expr]]:
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
         name = "arguments" if last_name(call.func) == "Node" else "cmd"
         given = file.value(argument(call, name))
         if isinstance(given, ast.List):
-            yield call, given.elts
+            yield given.elts
 
 
 def detached(file: LaunchFile) -> Iterator[Place]:

@@ -15,6 +15,7 @@ from gz_course.grader.lint.slips import (
     angles,
     callbacks,
     conditions,
+    endless_spins,
     everyday,
     exact_sums,
     late_binding,
@@ -40,6 +41,7 @@ from gz_course.grader.lint.slips import (
     time_units,
     transforms,
     unreached,
+    unused_callbacks,
     waiting,
     waiting_messages,
 )
@@ -50,12 +52,13 @@ from gz_course.grader.lint.syntax import Places, places_in
 MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
-    everyday.LOOKS, callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS, never_set.LOOKS,
-    unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS,
+    everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS,
+    never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
+    endless_spins.LOOKS,
 )  # fmt: skip
 
 

@@ -43,11 +43,14 @@ def kept_defaults(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         arguments, defaults = function.args.args, function.args.defaults
         for argument, default in zip(arguments[len(arguments) - len(defaults) :], defaults, strict=True):
-            if not isinstance(default, ast.List | ast.Dict):
+            names = [node for node in ast.walk(function) if isinstance(node, ast.AugAssign | ast.Assign)]
+            anew = any(argument.arg in map(ast.unparse, node.targets) for node in names if isinstance(node, ast.Assign))
+            if not isinstance(default, ast.List | ast.Dict) or anew:
                 continue
+            grows = any(ast.unparse(node.target) == argument.arg for node in names if isinstance(node, ast.AugAssign))
             added = {f"{argument.arg}.append", f"{argument.arg}.extend", f"{argument.arg}.update"}
             calls = {ast.unparse(node.func) for node in ast.walk(function) if isinstance(node, ast.Call)}
-            if calls & added:
+            if calls & added or grows:
                 yield (
                     function.lineno,
                     f"the default of {argument.arg} is made once, when {function.name} is defined: what is added stays "

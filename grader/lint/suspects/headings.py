@@ -14,7 +14,8 @@ TO_DEGREES = frozenset({"degrees", "rad2deg"})
 TO_RADIANS = frozenset({"radians", "deg2rad"})
 HEADING = re.compile(r"heading|yaw|theta|\bth\b|phi|psi|angle|direction|orientation", re.IGNORECASE)
 OF_SCANS = re.compile(r"\bangle_(?:min|max|increment)\b")
-X, Y = re.compile(r"\bd?x\b|\[0\]|\bd_?x\b|\bdelta_x\b"), re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b")
+X = re.compile(r"\bd?x\b|\[0\]|\bd_?x\b|\bdelta_x\b|\b(?:forward|ahead)\b")
+Y = re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b|\b(?:leftward|left|aside|sideways|lateral)\b")
 
 
 def _quaternions(tree: ast.AST) -> set[str]:
@@ -63,6 +64,8 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
         (part,) = parts
         what = {"z": "the sine of half of it", "w": "the cosine of half of it"}.get(part, "nearly 0 on flat ground")
         return f"orientation is a quaternion, whose {part} is {what}; {right}"
+    if used == {"atan2"} and (flat := sorted(parts - {"w"})) and "z" not in parts:
+        return f"{flat[0]} is nearly 0 on flat ground, so this is, too; {right}"
     if used == {"atan2"} and parts == {"z", "w"} and isinstance(value, ast.Call):
         if _part(value.args[0], names) == "w":
             return f"atan2 takes the sine first, which is z; {right}"

@@ -115,6 +115,36 @@ def first_message_kept(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a callback that returns at once when it has kept a message before."""
+    for function in functions(tree):
+        message = {each.arg for each in function.args.args if each.arg != "self"}
+        for place, test in enumerate(function.body):
+            if not isinstance(test, ast.If) or ast.unparse(test.body[-1]) not in ("return", "return None"):
+                continue
+            name = _tested_for_a_value(test.test)
+            behind = [node for part in function.body[place + 1 :] for node in ast.walk(part)]
+            sets = [node for node in behind if isinstance(node, ast.Assign) and _sets(node, name)]
+            others = [node for node in ast.walk(tree) if isinstance(node, ast.Assign) and _sets(node, name)]
+            anew = [node for node in others if node not in sets and ast.unparse(node.value) != "None"]
+            if not name or _on_purpose(name) or not sets or anew:
+                continue
+            if {node.id for node in ast.walk(sets[0].value) if isinstance(node, ast.Name)} & message:
+                yield (
+                    test.lineno,
+                    "first_kept",
+                    f"{function.name} returns here as soon as self.{name} is set, so it keeps its first message and "
+                    "passes over all later ones: set it with each message",
+                )
+
+
+def _tested_for_a_value(test: ast.expr) -> str:
+    """Return the attribute of `self.x is not None` or `self.x`; empty for another test."""
+    if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.IsNot):
+        return _attribute(test.left) if ast.unparse(test.comparators[0]) == "None" else ""
+    return _attribute(test)
+
+
 def _tested_for_none(test: ast.expr) -> str:
     """Return the attribute of `self.x is None` or `not self.x`; empty for another test."""
     if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and ast.unparse(test.comparators[0]) == "None":
@@ -130,4 +160,4 @@ def _sets(node: ast.Assign, name: str) -> bool:
     )
 
 
-LOOKS = (copied_before_a_loop, first_message_kept)
+LOOKS = (copied_before_a_loop, first_message_kept, returns_when_set)

@@ -1,0 +1,31 @@
+"""Why a follower gets or sends nothing although its topics have the right names: types and quality of service."""
+
+TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
+
+
+def unheard(ends, name, front):
+    """Return what keeps the messages of a follower's topics from arriving; empty if nothing is seen."""
+    mine = [end for end in ends if end["node"] == f"/{name}/follower"]
+    for end in mine:
+        listens = end["kind"] == "subscription" and end["topic"] in (f"/{name}/odom", f"/{front}/odom")
+        speaks = end["kind"] == "publisher" and end["topic"] == f"/{name}/cmd_vel"
+        if not listens and not speaks:
+            continue
+        what, kind = ("subscription to", ODOMETRY) if listens else ("publisher on", TWIST)
+        given = end.get("type", kind)
+        if given != kind:
+            return (
+                f"its {what} {end['topic']} has the type {given}, and the topic carries {kind}: DDS connects equal "
+                "types only, so nothing arrives"
+            )
+        if speaks and end.get("reliability") == "BEST_EFFORT":
+            return (
+                f"its publisher on {end['topic']} offers the reliability BEST_EFFORT, and the bridge asks for "
+                "RELIABLE, so not one command arrives: use the default QoS, a depth of 10"
+            )
+        if listens and end.get("durability") == "TRANSIENT_LOCAL":
+            return (
+                f"its subscription to {end['topic']} asks for the durability TRANSIENT_LOCAL, which the bridge does "
+                "not offer, so it gets nothing: use the default QoS, a depth of 10"
+            )
+    return ""

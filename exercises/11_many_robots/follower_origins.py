@@ -1,0 +1,78 @@
+"""Where a follower takes the robot in front to be, if not 1.2 m ahead of where its odometry begins."""
+
+import numpy as np
+
+GAP = 1.2  # [m]
+FITS = 0.995  # of the variance of the commands that a line must explain
+BETTER = 0.5  # of what is unexplained otherwise: so much another place must explain
+PLACES = np.arange(-3.6, 6.01, 0.1)  # [m] ahead of the follower's own beginning
+LEAST = 0.15  # [m/s] from which on a robot starts at once, and not little by little
+NEAR = 0.25  # [m] to the right place, or to none: other words name that
+
+
+def begun_elsewhere(every, line):
+    """Return where a follower takes the robot in front to have begun, if that fits its speeds much better than 1.2 m.
+
+    On a straight way, a place and a gap that is kept cannot be told apart: only what goes to the side tells.
+    """
+    v = every[0].linear
+    found = []
+    for h in every:
+        for place in PLACES:
+            fit = line(np.hypot(h.front_x + place - h.x, h.aside), v)
+            if fit is not None and fit[0] > 0:
+                found.append((fit[2], float(place), -fit[1] / fit[0]))
+    if not found:
+        return ""
+    best, place, gap = max(found)
+    usual = max((fit for fit, other, _ in found if min(abs(other - GAP), abs(other)) < NEAR), default=0.0)
+    if best < FITS or best < usual + BETTER * (1 - usual) or min(abs(place - GAP), abs(place)) < NEAR:
+        return ""
+    if not 0.9 < gap < 1.5:
+        return ""
+    return (
+        f"it takes the robot in front to have begun {place:.1f} m ahead of its own robot, but it began {GAP} m ahead: "
+        "front.x + 1.2 - own.x is how far ahead it is, for every pair"
+    )
+
+
+def sideways(recording, name):
+    """Return that a follower sends its speed in a field that a robot on two wheels does not obey; else nothing."""
+    base = f"topics/{name}/cmd_vel"
+    for field in ("linear/y", "linear/z", "angular/x", "angular/y"):
+        values = recording.signal(f"{base}/{field}").values
+        right = "linear/x" if field.startswith("linear") else "angular/z"
+        if len(values) and np.abs(values).max() > 0.02 and not recording.signal(f"{base}/{right}").values.any():
+            wrong, right = field.replace("/", "."), right.replace("/", ".")
+            what = "drives along" if right == "linear.x" else "turns about"
+            return f"it sends {wrong} and no {right}: a robot on two wheels {what} {right[-1]} only, so that is {right}"
+    return ""
+
+
+def drives_from(every):
+    """Return from which distance on a follower drives, if it stands still although it is farther than the gap.
+
+    If its speeds are zero where it does not face the robot in front instead, return from which angle on.
+    """
+    for h in every:
+        zero = np.abs(h.linear) < 1e-6
+        angle = np.abs(np.arctan2(np.sin(t := np.arctan2(h.aside, h.ahead) - h.heading), np.cos(t)))
+        far = h.distance > GAP + 0.1
+        if (far & zero).sum() < 3 or (far & ~zero).sum() < 3:
+            continue
+        jumps = np.quantile(h.linear[far & ~zero], 0.1) > LEAST
+        if jumps and _parted(h.distance[zero & far], h.distance[~zero & far]):
+            from_on = float(h.distance[~zero & far].min())
+            return f"it drives only from a distance of about {from_on:.1f} m on, and stands still where it is less"
+        if _parted(angle[~zero & far], angle[zero & far]):
+            most = float(angle[~zero & far].max())
+            return (
+                f"it stands still where the robot in front is more than about {most:.2f} rad to the side, and falls "
+                "behind meanwhile: drive and turn at once, or let the angle be larger"
+            )
+    return ""
+
+
+def _parted(low, high):
+    """Return whether nearly all of some numbers are below nearly all of others."""
+    return np.quantile(low, 0.9) < np.quantile(high, 0.1)

@@ -1,0 +1,81 @@
+"""Commands that give a program ROS parameters without the word --ros-args, behind which alone ROS reads them.
+
+A remapping, -r FROM:=TO, works without it in its old form; a parameter does not.
+
+Source: https://github.com/ros2/rcl, rcl/src/rcl/arguments.c
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from itertools import pairwise
+
+from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
+
+PARAMETER = ("-p", "--param")
+GROWS = ("append", "extend", "insert")
+DEEPEST = 5  # lists in lists that are followed
+
+
+def without_ros_args(file: LaunchFile) -> Iterator[Place]:
+    """Find `-p NAME:=VALUE` in a command all of whose words are known, and none of which is --ros-args."""
+    owners = _functions_of(file)
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
+        if None in words or any("--ros-args" in text(each) for word in words if word for each in ast.walk(word)):
+            continue
+        for before, word in pairwise(word for word in words if word is not None):
+            said = "".join(text(each) for each in ast.walk(word))
+            if text(before) in PARAMETER and ":=" in said:
+                yield (
+                    word.lineno,
+                    f"--ros-args is missing before -p {said if text(word) else ast.unparse(word)}: words before it "
+                    "belong to the program, and ROS does not read them",
+                )
+                break
+
+
+def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:
+    """Return the innermost function around each call."""
+    found: dict[int, ast.AST] = {}
+    for node in file.nodes:  # outer functions come before inner ones
+        if isinstance(node, ast.FunctionDef):
+            found |= {id(each): node for each in ast.walk(node) if isinstance(each, ast.Call)}
+    return found
+
+
+def _words(file: LaunchFile, given: ast.expr, scope: ast.AST, depth: int) -> Iterator[ast.expr | None]:
+    """Yield the words of a command, in the order in which the file puts them together; None for what is not known."""
+    if isinstance(given, ast.List | ast.Tuple):
+        for each in given.elts:
+            yield from _words(file, each.value, scope, depth - 1) if isinstance(each, ast.Starred) else (each,)
+    elif isinstance(given, ast.BinOp) and isinstance(given.op, ast.Add):
+        yield from _words(file, given.left, scope, depth - 1)
+        yield from _words(file, given.right, scope, depth - 1)
+    elif isinstance(given, ast.Name) and depth > 0 and (parts := _parts(file, given.id, scope)):
+        for part in parts:
+            yield from _words(file, part, scope, depth - 1)
+    else:
+        yield None
+
+
+def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
+    """Return the lists that a function puts together under a name, or that the file assigns once; else nothing."""
+    found: list[tuple[int, ast.expr]] = []
+    grows = [(name, method) for method in GROWS]
+    for node in ast.walk(scope) if scope is not file.tree else ():
+        if isinstance(node, ast.Assign | ast.AugAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            if name in [ast.unparse(target) for target in targets]:
+                found.append((node.lineno, node.value))
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[::2] in grows and node.args:
+            extends = ast.unparse(node.func).endswith(".extend")
+            found.append((node.lineno, node.args[0] if extends else ast.List(node.args[-1:], ast.Load())))
+    if found:
+        return [value for _, value in sorted(found, key=lambda each: each[0])]
+    return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
+
+
+LOOKS = (without_ros_args,)

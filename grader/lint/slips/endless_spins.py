@@ -1,0 +1,48 @@
+"""Endless loops around spin() that go on after Ctrl-C, because what ends them is caught inside."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Place, called
+
+ENDS = frozenset({"BaseException", "KeyboardInterrupt"})
+LEAVES = ast.Break | ast.Return | ast.Raise
+EXITS = frozenset({"exit", "_exit", "quit", "abort"})
+
+
+def never_ends(tree: ast.AST) -> Iterator[Place]:
+    """Find `while True` with a `try` inside that spins, catches KeyboardInterrupt and goes on."""
+    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.While)):
+        if not isinstance(loop.test, ast.Constant) or not loop.test.value:
+            continue
+        for node in (each for each in ast.walk(loop) if isinstance(each, ast.Try)):
+            spins = any(name.startswith("spin") for part in node.body for name in called(part))
+            for handler in node.handlers if spins else ():
+                if not _catches(handler):
+                    continue
+                leaves = any(isinstance(each, LEAVES) for each in ast.walk(handler)) or called(handler) & EXITS
+                if not leaves and not _asks_whether_ok(loop):
+                    caught = ast.unparse(handler.type) if handler.type else "without a name"
+                    yield (
+                        handler.lineno,
+                        f"this except ({caught}) catches the KeyboardInterrupt of Ctrl-C, and the loop of line "
+                        f"{loop.lineno} goes on, so the program never ends: leave the loop here with break",
+                    )
+                break
+
+
+def _catches(handler: ast.ExceptHandler) -> bool:
+    """Return whether a handler is the one that gets a KeyboardInterrupt."""
+    if handler.type is None:
+        return True
+    return any(isinstance(each, ast.Name) and each.id in ENDS for each in ast.walk(handler.type))
+
+
+def _asks_whether_ok(loop: ast.While) -> bool:
+    tests = [node.test for node in ast.walk(loop) if isinstance(node, ast.If)]
+    return any("ok" in called(test) for test in tests)
+
+
+LOOKS = (never_ends,)

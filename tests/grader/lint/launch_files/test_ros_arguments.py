@@ -1,0 +1,33 @@
+"""Parameters in a command without --ros-args, however the file puts the words of the command together."""
+
+import pytest
+
+from gz_course.grader.lint.launch_files import launch_places
+
+LAUNCH = """\
+def follower(number, *more):
+    names = ["-r", f"__ns:=/robot{number}"]
+    parameters = ["-p", f"gap:={GAP}"]
+    COMMAND
+    return ExecuteProcess(cmd=command, output="screen")
+"""
+
+
+@pytest.mark.parametrize(
+    ("command", "found"),
+    [
+        ('command = ["python3", "a.py", *names, *parameters]', True),
+        ('command = ["python3", "a.py"] + names + parameters', True),
+        ('command = ["python3", "a.py"]\n    command += names\n    command.extend(parameters)', True),
+        ('command = ["python3", "a.py", "-p", "gap:=1.2"]', True),
+        ('command = ["python3", "a.py", "--ros-args", *names, *parameters]', False),
+        ('command = ["python3", "a.py"]\n    command.append("--ros-args")\n    command += parameters', False),
+        ('command = ["python3", "a.py", *more, *parameters]', False),
+        ('command = words("python3") + parameters', False),
+        ('command = ["python3", "a.py", *names]', False),
+        ('command = ["gz", "sim", "-r", "field.sdf"]', False),
+    ],
+)
+def test_parameters_without_ros_args(command, found):
+    slips = launch_places(LAUNCH.replace("COMMAND", command).encode())["launch_slips"]
+    assert any("--ros-args is missing before -p" in each["said"] for each in slips) == found
