@@ -99,9 +99,15 @@ def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
             if value.startswith(("_", "-")):
                 yield word.lineno, f"{value} sets no parameter in ROS 2: the words are --ros-args -p {SIM_TIME}:=true"
                 continue
-            if before not in ("-p", "--param") and value.startswith(f"{SIM_TIME}:="):
+            if last_name(call.func) == "Node" and "--ros-args" not in said and value.startswith(f"{SIM_TIME}:="):
+                yield (
+                    word.lineno,
+                    f"{value!r} in the arguments of a Node is no parameter, because they come before --ros-args: "
+                    f"parameters=[{{'{SIM_TIME}': True}}] is one",
+                )
+            elif before not in ("-p", "--param") and value.startswith(f"{SIM_TIME}:="):
                 yield word.lineno, f"-p is missing before {value!r}: without it, this is no parameter"
-            elif before in ("-p", "--param") and "--ros-args" not in said and last_name(call.func) != "Node":
+            elif before in ("-p", "--param") and "--ros-args" not in said:
                 yield (
                     word.lineno,
                     f"--ros-args is missing before -p {value}: words before it belong to the program, and ROS does not "

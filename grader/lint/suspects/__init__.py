@@ -10,6 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects import (
+    ages,
     aliases,
     bearings,
     bias_use,
@@ -22,6 +23,7 @@ from gz_course.grader.lint.suspects import (
     headings,
     hidden_errors,
     known_places,
+    lookups,
     old_values,
     patrols,
     pictures,
@@ -52,6 +54,8 @@ LOOKS = (
     *drives.LOOKS,
     *hidden_errors.LOOKS,
     *ways.LOOKS,
+    *ages.LOOKS,
+    *lookups.LOOKS,
 )
 MOST = 20  # suspects kept
 
