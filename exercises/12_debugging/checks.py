@@ -44,7 +44,15 @@ def commands_go_to_gazebo(recording, parameters):
     if not found:
         others = [each for each in bridges(recording) if each.ros_topic == COMMANDS]
         measured = "no bridge has the Gazebo topic /model/robot/cmd_vel"
-        if others:
+        exchanged = [each for each in bridges(recording) if each.ros_topic == "/model/robot/cmd_vel"]
+        if exchanged:
+            measured = (
+                f"{exchanged[0].place}: ros_topic_name and gz_topic_name are exchanged: the cart listens to "
+                f"/model/robot/cmd_vel in Gazebo, and the driver publishes {COMMANDS} in ROS"
+            )
+            if exchanged[0].gz_topic != COMMANDS:
+                measured = f"{exchanged[0].place}: /model/robot/cmd_vel is the name in Gazebo; in ROS, it is {COMMANDS}"
+        elif others:
             measured = (
                 f"{others[0].place}: /cmd_vel is joined with Gazebo's {others[0].gz_topic}, where the cart does not "
                 "listen: it listens to /model/robot/cmd_vel"
@@ -213,8 +221,25 @@ def simulated_time(recording, parameters):
         return Finding(False, expected, "no node publishes a sensor_msgs/msg/Range", gated=dead)
     for node in sorted(ranger | driver):
         if node not in follows:
-            return Finding(False, expected, f"{node} ran without use_sim_time: its clock is that of the computer")
+            measured = f"{node} ran without use_sim_time: its clock is that of the computer"
+            program = "ranger_node.py" if node in ranger else "driver_node.py"
+            return Finding(False, expected, measured, explanation=_why_on_wall_time(recording, program))
     return Finding(True, expected, "so it is")
+
+
+def _why_on_wall_time(recording, program):
+    """Return which action starts a program without use_sim_time, and that it no longer asks how old a message is."""
+    what, signal = ("scan", "wall/range") if program == "ranger_node.py" else ("distance", "cmd_vel/linear/x")
+    places = recording.facts().get("programs", [])
+    place = next((each for each in places if each["program"] == program and not each["sim_time"]), None)
+    said = f"{program} is started without use_sim_time"
+    if place is not None:
+        said = f"{place['file']}, line {place['line']}: {said}"
+        if place["elsewhere"]:
+            said += f"; line {place['elsewhere']} gives it to {place['executable'] or 'another program'} instead"
+    if np.any(recording.signal(f"topics/{signal}").values):  # by its own clock, every message is many years old
+        return f"{said}, and its check of how old a {what} is, which noticed that, no longer drops any: put it back"
+    return said if place is not None else ""
 
 
 def parks(recording, parameters):
@@ -286,6 +311,8 @@ def _why_still(recording):
     ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
     if not heard:
         why = "the ranger published no distance on /wall: it waits without end, or drops every scan"
+        if places := _suspects(recording, "ranger_node.py", "age", "hidden"):
+            why = f"{places}; the ranger published no distance on /wall"
         return f"{why}; it warned: {ranger}" if ranger else why
     if not commands:
         return (
@@ -302,6 +329,8 @@ def _why_there(recording, times, away, wanted):
         return ""
     truth = np.interp(measured.times, times, away)
     if said := MISCONCEPTIONS["of_a_distance"](measured.values, truth, MOUNT[0]):
+        if "wrong sign" in said and (place := _suspects(recording, "ranger_node.py", "exchanged_frames")):
+            return place
         return f"{said} (/wall, ranger_node.py)"
     if not len(command):
         return ""
@@ -310,7 +339,19 @@ def _why_there(recording, times, away, wanted):
     said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
     if "stop_at says" in said and (missing := declared(recording, "stop_at", "1.0")):
         return missing
+    kinds = {"stop_at says": ("hidden",), "every command is zero": ("age", "hidden")}
+    about = next((kinds[words] for words in kinds if words in said), ())
+    if place := _suspects(recording, "driver_node.py", *about):
+        return f"{place} ({said})"
     places = [each for each in recording.facts().get("before_speeds", []) if each["file"] == "driver_node.py"]
     if places and said.endswith("never holds"):
         said += ": " + "; ".join(f"line {each['line']}, `{each['code']}`" for each in places)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""
+
+
+def _suspects(recording, file, *about):
+    """Return the first place in a file that is suspected of one of these things, with its words; empty if none is."""
+    for each in recording.facts().get("suspects", []):
+        if each.get("file") == file and each["about"] in about:
+            return f"{file}, line {each['line']}: {each['said']}"
+    return ""

@@ -15,6 +15,7 @@ FASTEST = 0.6  # [m/s] of the driver as it was given
 STANDS = 0.01  # [m/s]
 HEIGHT = 0.06  # [m] of base_link above the ground
 FRONT = 0.2  # [m] from base_link
+DEFAULT = 1.0  # [m] stop_at if it is not given
 
 
 def of_a_mount(seen, mount, sign):
@@ -23,8 +24,8 @@ def of_a_mount(seen, mount, sign):
         if sign < 0:
             return "the transform is inverted: parent and child are swapped"
         return (
-            "the transform is inverted: its numbers are the place of base_link, seen from lidar_link; they must be "
-            "that of the child, seen from its parent"
+            "the transform is inverted: its numbers are the place of base_link, seen from lidar_link; with base_link "
+            f"as the parent, they are that of lidar_link: x = {mount[0]:g}, z = {mount[2]:g}"
         )
     for factor, unit in ((1000, "millimetres"), (100, "centimetres")):
         if math.dist([each / factor for each in seen], mount) < 0.005:
@@ -81,10 +82,14 @@ def of_a_driver(distance, speed, wanted):
     away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
     if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
         return "the sign of linear.x is wrong: it drives away from the wall"
-    if _drives(speed, left - FRONT):
+    if abs(wanted + FRONT - DEFAULT) > CLOSE and _drives(speed, left - FRONT):
         return "the distance is taken from the front of the cart, and it is asked for from base_link"
     if (other := _aim(distance, speed)) is not None and abs(other - wanted) > CLOSE:
-        return f"the commands drive the cart to {other:.2f} m from the wall, not to the {wanted:g} m that stop_at says"
+        default = ": stop_at has its default there" if abs(other - DEFAULT) < CLOSE / 2 else ""
+        return (
+            f"the commands drive the cart to {other:.2f} m from the wall, not to the {wanted:g} m that stop_at "
+            f"says{default}"
+        )
     before = speed[: np.flatnonzero(np.abs(speed) > STANDS)[-1]]  # it comes to rest
     still = np.mean(np.abs(before) <= STANDS) if len(before) >= FEWEST else 0.0
     if still > 0.2:

@@ -73,6 +73,7 @@ def test_the_distance_to_the_wall(measured, words):
         (driven(DISTANCE, np.sign(DISTANCE - 1.0)), "it does not fall"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "to 1.00 m from the wall, not to the 0.7 m that stop_at"),
         (driven(DISTANCE[:3], DISTANCE[:3]), ""),
+        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: stop_at has its default there"),
     ],
 )
 def test_the_commands(given, words):
@@ -119,3 +120,59 @@ def test_a_driver_whose_commands_have_another_name():
     recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
     finding = CHECKS["all_alive"](recording, {})
     assert "/driver publishes its commands on /model/robot/cmd_vel" in finding.measured
+
+
+BRIDGE = {
+    "source": "bridge.yaml:11",
+    "ros_topic": "/model/robot/cmd_vel",
+    "ros_type": "geometry_msgs/msg/Twist",
+    "gz_topic": "/cmd_vel",
+    "gz_type": "gz.msgs.Twist",
+    "direction": "ROS_TO_GZ",
+    "to_ros": 0,
+    "to_gz": 0,
+    "publisher_qos": None,
+    "subscription_qos": None,
+}
+
+
+@pytest.mark.parametrize(
+    ("gz_topic", "words"),
+    [("/cmd_vel", "line 11: ros_topic_name and gz_topic_name are exchanged"), ("/x", "in ROS, it")],
+)
+def test_names_of_the_commands_that_are_exchanged(gz_topic, words):
+    recording = SimpleNamespace(facts=lambda: {"bridges": [BRIDGE | {"gz_topic": gz_topic}]})
+    assert words in CHECKS["commands_go_to_gazebo"](recording, {}).measured
+
+
+@pytest.mark.parametrize(
+    ("distances", "elsewhere", "words"),
+    [
+        ([1.0], 0, "line 38: ranger_node.py is started without use_sim_time, and its check of how old a scan is"),
+        ([], 0, "line 38: ranger_node.py is started without use_sim_time"),
+        ([], 24, "line 24 gives it to parameter_bridge instead"),
+    ],
+)
+def test_a_ranger_on_the_wall_clock(distances, elsewhere, words):
+    each = {"reliability": "RELIABLE", "durability": "VOLATILE", "type": "sensor_msgs/msg/Range", "topic": "/wall"}
+    ends = [
+        each | {"kind": "publisher", "node": "/ranger"},
+        each | {"kind": "subscription", "node": "/driver"},
+        each | {"kind": "subscription", "node": "/driver", "topic": "/clock"},
+    ]
+    place = {"file": "bringup.launch.py", "line": 38, "program": "ranger_node.py", "sim_time": False}
+    place |= {"elsewhere": elsewhere, "executable": "parameter_bridge"}
+    recording = SimpleNamespace(
+        facts=lambda: {"endpoints": ends, "programs": [place]},
+        signal=lambda name: SimpleNamespace(values=np.array(distances)),
+    )
+    finding = CHECKS["simulated_time"](recording, {})
+    assert not finding.passed and words in finding.explanation, finding.explanation
+
+
+def test_a_suspect_is_that_of_its_file():
+    place = {"line": 7, "about": "age", "said": "turned"}
+    facts = {"suspects": [place | {"file": "ranger_node.py"}, place | {"file": "driver_node.py", "about": "hidden"}]}
+    recording = SimpleNamespace(facts=lambda: facts)
+    assert CHECKS["_suspects"](recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
+    assert CHECKS["_suspects"](recording, "driver_node.py", "age") == ""

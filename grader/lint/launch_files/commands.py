@@ -97,7 +97,7 @@ def _joined(word: ast.expr | None) -> bool:
 
 def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
     """Find `name:=value` without the words that make it a parameter."""
-    for words in _of_processes(file):
+    for call, words in _of_processes(file):
         if any(isinstance(word, ast.Starred) for word in words):
             continue  # the words of another list come in between
         said = [text(word) for word in words]
@@ -111,18 +111,24 @@ def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
             if value.startswith(("_", "-")):
                 yield word.lineno, f"{value} sets no parameter in ROS 2: the words are --ros-args -p {SIM_TIME}:=true"
                 continue
-            if before not in ("-p", "--param") and value.startswith(f"{SIM_TIME}:="):
+            if last_name(call.func) == "Node" and "--ros-args" not in said and value.startswith(f"{SIM_TIME}:="):
+                yield (
+                    word.lineno,
+                    f"{value!r} in the arguments of a Node is no parameter, because they come before --ros-args: "
+                    f"parameters=[{{'{SIM_TIME}': True}}] is one",
+                )
+            elif before not in ("-p", "--param") and value.startswith(f"{SIM_TIME}:="):
                 yield word.lineno, f"-p is missing before {value!r}: without it, this is no parameter"
             elif before in ("-p", "--param") and ":=" not in value:
                 yield word.lineno, f"a parameter is written NAME:=VALUE, with := and no spaces: {SIM_TIME}:=true"
 
 
-def _of_processes(file: LaunchFile) -> Iterator[list[ast.expr]]:
+def _of_processes(file: LaunchFile) -> Iterator[tuple[ast.Call, list[ast.expr]]]:
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
         name = "arguments" if last_name(call.func) == "Node" else "cmd"
         given = file.value(argument(call, name))
         if isinstance(given, ast.List):
-            yield given.elts
+            yield call, given.elts
 
 
 def detached(file: LaunchFile) -> Iterator[Place]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.lint.syntax import calls, last_name
+from gz_course.sim.did_you_mean import nearest_name
 
 IN_A_TEXT = re.compile(r"\$\(var (\w+)\)")
 BRACES = re.compile(r"\{([A-Za-z_]\w*)(?:[^{}]*)\}")
@@ -64,13 +65,21 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
             words |= {text(each).rpartition("/")[2] for each in ast.walk(part)} if part is not None else set()
         program = next(iter(sorted(words & nodes.keys())), "")
         known = _declared(nodes[program]) if program else set()
+        for name, line in _given(file, call):
+            if _near_sim_time(name) and name.encode() not in nodes.get(program, b""):
+                yield line, f"no node has a parameter {name}: the one that turns simulated time on is use_sim_time"
         for name, line in _given(file, call) if known else ():
-            if name not in known | OF_EVERY_NODE:
+            if name not in known | OF_EVERY_NODE and not _near_sim_time(name):
                 yield (
                     line,
                     f"{program} declares no parameter {name}, so nobody reads this one; it declares "
                     f"{', '.join(sorted(known))}",
                 )
+
+
+def _near_sim_time(name: str) -> bool:
+    """Return whether a name is nearly use_sim_time, and another one."""
+    return name != "use_sim_time" and bool(nearest_name(name.lower(), ["use_sim_time"], 0.75))
 
 
 def _declared(content: bytes) -> set[str]:

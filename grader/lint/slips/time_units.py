@@ -37,6 +37,8 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
             if unit is None or not limit or isinstance(node.ops[0], ast.Is | ast.IsNot | ast.NotEq):
                 continue
             seconds = abs(limit) * unit
+            if math.isclose(unit, 1.0) and seconds > LONGEST and _is_age(one, values, STEPS):
+                continue  # a limit that no age exceeds has no wrong unit
             code = ast.unparse(node)[:70]
             if isinstance(node.ops[0], ast.Eq):
                 yield (
@@ -46,6 +48,15 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
             elif seconds > LONGEST or not _name(unit) or (seconds < SHORTEST and not math.isclose(unit, 1.0)):
                 yield node.lineno, f"{code}: {_said(unit, limit, seconds)}"
     yield from _durations(tree, numbers)
+
+
+def _is_age(node: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) -> bool:
+    """Return whether a time is the age of a message, which is reckoned from a stamp."""
+    parts = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    if any(isinstance(each, ast.Attribute) and each.attr == "stamp" for each in parts):
+        return True
+    known = {ast.unparse(each) for each in parts} & values.keys() if steps else set()
+    return any(_is_age(value, values, steps - 1) for name in known for value in values[name])
 
 
 def _lasts(node: ast.expr, values: Mapping[str, list[ast.expr]]) -> bool:

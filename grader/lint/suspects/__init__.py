@@ -10,6 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects import (
+    ages,
     aliases,
     bearings,
     bias_use,
@@ -24,6 +25,7 @@ from gz_course.grader.lint.suspects import (
     headings,
     hidden_errors,
     known_places,
+    lookups,
     old_values,
     patrols,
     pictures,
@@ -62,6 +64,8 @@ LOOKS = (
     *hidden_errors.LOOKS,
     *ways.LOOKS,
     *waypoint_loops.LOOKS,
+    *ages.LOOKS,
+    *lookups.LOOKS,
 )
 MOST = 20  # suspects kept
 

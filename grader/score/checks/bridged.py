@@ -107,6 +107,11 @@ def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict
 def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any]) -> str:
     kind = "subscribers" if wanted["direction"] == "ROS_TO_GZ" else "publishers"
     does = "listens to" if wanted["direction"] == "ROS_TO_GZ" else "publishes"
+    if match := re.fullmatch(rf"/world/([^/]+){re.escape(wanted['gz_topic'])}", bridge.gz_topic):
+        return (
+            f"the Gazebo topic {bridge.gz_topic} exists only in the world called {match[1]}, and so not with another "
+            f"world file; {wanted['gz_topic']} exists in every world"
+        )
     if "gz sim" in gz.get(bridge.gz_topic, {}).get(kind, []):
         carried = (gz[bridge.gz_topic].get("types") or [""])[0]
         what, other = (CONTENTS.get(name.rpartition(".")[2], "") for name in (carried, wanted["gz_type"]))
@@ -119,6 +124,8 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     if bridge.gz_topic.endswith((",", ";")):
         end = bridge.gz_topic[-1]
         return f"nobody in Gazebo {does} {bridge.gz_topic}: in YAML, the {end} at the end is a part of the name"
+    if bridge.to_ros and not gz and does == "publishes":  # the run of a launch file has no graph of Gazebo
+        return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
     typo = "it is nearly right, look at its spelling: " if near else ""
     name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""

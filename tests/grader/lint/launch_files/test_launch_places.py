@@ -134,6 +134,11 @@ def test_a_right_file_has_none():
         ('"--ros-args", "-p", ', '*command, "-p", ', ""),
         ('"--ros-args", "-p", ', '"--ros-args", ', "-p is missing before"),
         ("use_sim_time:=true", "use_sim_time=true", "written NAME:=VALUE"),
+        (
+            "bridge = Node(",
+            'bridge = Node(\n        arguments=["-p", "use_sim_time:=true"],',
+            "is no parameter, because they come before --ros-args",
+        ),
         ('"--ros-args", "-p", "use_sim', '"_use_sim', "sets no parameter in ROS 2"),
         ('[{"config_file": str(HERE / "bridge.yaml")}]', '[str(HERE / "bridge.yaml")]', "is a file of ROS parameters"),
         ('"config_file"', '"config"', "a parameter called config, which it does not know"),

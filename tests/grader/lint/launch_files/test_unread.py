@@ -37,6 +37,7 @@ def test_a_right_file_has_none():
         ('LaunchConfiguration("stop_at")', "1.0", "the argument stop_at is declared, and nothing"),
         ('f"robot{number}"', '"robot{number}"', "has no f before its quotes"),
         ('"stop_at": Launch', '"distance": Launch', "driver.py declares no parameter distance"),
+        ('"use_sim_time"', '"use_simtime"', "no node has a parameter use_simtime: the one that"),
     ],
 )
 def test_each_is_found(old, new, words):

@@ -162,6 +162,8 @@ HARMLESS = [
     ("elapsed < SECONDS", "now - self.start < Duration(seconds=5)"),
     ("elapsed < SECONDS", "elapsed > 0 and elapsed < SECONDS"),
     ("elapsed = (now - self.start)", "elapsed = abs(self.start - now)"),
+    ("self.start).nanoseconds / 1e9\n", "Time.from_msg(msg.header.stamp)).nanoseconds / 1e9 - 1e7\n        old = "
+                                        "abs(elapsed) > 1e10\n"),
     ("self.tick)", "lambda: self.tick())"),
     ("self.tick)", "self.later(1))"),
     ("    rclpy.spin(node)", "    while rclpy.ok():\n        rclpy.spin_once(node)"),

@@ -101,6 +101,12 @@ def test_the_first_thing_wrong_is_told(found, change, words):
     assert [word for word in words if word not in finding.measured] == [], finding.measured
 
 
+def test_a_topic_that_names_its_world_exists_in_that_world_only(found):
+    clock = CLOCK | {"gz_topic": "/world/bay/clock"}
+    finding = found(clock, wanted=CLOCK)
+    assert not finding.passed and "exists only in the world called bay" in finding.measured, finding.measured
+
+
 def test_messages_of_another_topic_must_not_arrive_at_the_same_place(found):
     other = SCAN | {"source": "bridge.yaml:20", "gz_topic": "/lidar2"}
     mixed = found(SCAN, other)

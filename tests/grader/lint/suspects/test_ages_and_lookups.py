@@ -1,0 +1,59 @@
+"""Ages of messages that are compared the wrong way round, and lookups whose frames are exchanged."""
+
+import pytest
+
+from gz_course.grader.lint.suspects import suspects
+
+NODE = """\
+def on_scan(self, scan):
+    age = (self.get_clock().now() - Time.from_msg(scan.header.stamp)).nanoseconds / 1e9
+    if abs(age) > OLDEST:
+        self.get_logger().warning("too old")
+        return
+    frame = scan.header.frame_id
+    self.mount = self.frames.lookup_transform(FRAME, frame, Time())
+
+def drive(self):
+    command = Twist()
+    waited = self.get_clock().now() - self.wall.header.stamp
+    if self.wall is not None and waited < OLDEST:
+        command.linear.x = GAIN * self.wall.range
+    self.publisher.publish(command)
+"""
+
+
+def said(text, about):
+    return [each["said"] for each in suspects(text.encode()) if each["about"] == about]
+
+
+def test_a_right_node_has_none():
+    assert said(NODE, "age") == said(NODE, "exchanged_frames") == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "found"),
+    [
+        ("abs(age) > OLDEST", "abs(age) < OLDEST", True),
+        ("abs(age) > OLDEST", "not age > OLDEST", True),
+        ("abs(age) > OLDEST", "OLDEST > age", True),
+        ("waited < OLDEST", "waited > OLDEST", True),
+        ("waited < OLDEST", "not waited > OLDEST", False),
+        ("waited < OLDEST", "OLDEST > waited", False),
+        ("waited < OLDEST", "count > OLDEST", False),
+        ("        return\n", "        self.publisher.publish(Twist())\n        return\n", False),
+    ],
+)
+def test_an_age_that_is_compared_the_wrong_way_round(old, new, found):
+    assert bool(said(NODE.replace(old, new), "age")) == found
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "frame, FRAME, Time()",
+        "scan.header.frame_id, 'base_link', Time()",
+        "source_frame=FRAME, time=Time(), target_frame=scan.header.frame_id",
+    ],
+)
+def test_a_lookup_whose_frames_are_exchanged(given):
+    assert "comes first" in said(NODE.replace("FRAME, frame, Time()", given), "exchanged_frames")[0]
