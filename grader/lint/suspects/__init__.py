@@ -23,10 +23,12 @@ from gz_course.grader.lint.suspects import (
     hidden_errors,
     known_places,
     old_values,
+    oldest,
     patrols,
     pictures,
     rays,
     same_places,
+    sleeps,
     smoothing,
     ways,
 )
@@ -52,6 +54,8 @@ LOOKS = (
     *drives.LOOKS,
     *hidden_errors.LOOKS,
     *ways.LOOKS,
+    *oldest.LOOKS,
+    *sleeps.LOOKS,
 )
 MOST = 20  # suspects kept
 
