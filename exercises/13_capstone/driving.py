@@ -9,7 +9,7 @@ AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was d
 SLOW = 0.15  # [m/s]
 TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
-PLANNING = "pose", "counter", "sign", "cell", "way", "search"  # suspects in how a way is found and followed
+PLANNING = "sleep", "pose", "counter", "sign", "cell", "way", "search"  # suspects in how a way is found and followed
 
 
 def other_origin(x, y, grid):
@@ -43,7 +43,7 @@ def stands(recording):
     if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
         return f"all of its {len(ahead)} commands were 0{never}"
     if not np.abs(ahead).max() > 0.01:
-        said = suspect(recording, "pose", "counter", "sign", "cell", "heading", "angle", "ray")
+        said = suspect(recording, "sleep", "pose", "counter", "sign", "cell", "heading", "angle", "ray")
         return said or f"linear.x was 0 in every command{never}"
     return ""
 
@@ -58,11 +58,7 @@ def slow_or_lost(recording):
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
     planning = suspect(recording, *PLANNING)
     if turns > TURNS and way < 0.1 * seconds:
-        said = (
-            planning
-            or suspect(recording, "heading", "angle", "ray", "wrap")
-            or ("an angle to turn by must be brought between -pi and pi, and be measured from where the robot looks")
-        )
+        said = planning or suspect(recording, "heading", "angle", "ray", "wrap") or how_it_turned(recording)
         return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
     if len(ahead) and 0 < ahead.max() < SLOW:
         return f"linear.x was {ahead.max():.2f} m/s at most, too slow to see all rooms in {seconds:.0f} s"
@@ -80,6 +76,20 @@ def slow_or_lost(recording):
     return ""
 
 
+def how_it_turned(recording):
+    """Return what a robot that turned more than it drove did, as it is seen from outside."""
+    yaw = np.unwrap(recording.signal("truth/robot/yaw").values)
+    net, whole = abs(yaw[-1] - yaw[0]), float(np.abs(np.diff(yaw)).sum())
+    if net > 0.8 * whole:
+        return f"it turned to the {'left' if yaw[-1] > yaw[0] else 'right'} nearly all the time"
+    _, turning = commands(recording)
+    signs = np.sign(turning[np.abs(turning) > 0.05])
+    times = int(np.sum(signs[1:] != signs[:-1]))
+    if times > 5:
+        return f"it swung to and fro, and the sign of angular.z changed {times} times"
+    return "it turned to and fro"
+
+
 def touched(recording, radius, at, place):
     """Return how the robot came to touch something at a time [ns], whose nearest point is at `place` (x, y) [m]."""
     x, y, yaw = (
@@ -88,7 +98,7 @@ def touched(recording, radius, at, place):
     )
     bearing = np.remainder(np.arctan2(place[1] - y, place[0] - x) - yaw + np.pi, 2 * np.pi) - np.pi
     if said := suspect(
-        recording, "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
+        recording, "sleep", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
     ):
         return said
     if said := drives_while_turning(recording):

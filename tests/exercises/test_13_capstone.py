@@ -58,6 +58,13 @@ def test_why_a_robot_did_not_see_all(run, words):
     assert words in said if words else said == ""
 
 
+def test_how_a_robot_turned_is_what_was_seen():
+    swings = recording(yaw=np.sin(NOW), turning=np.sin(NOW * 2))
+    assert "turned to the left nearly all the time" in DRIVING.how_it_turned(recording(yaw=NOW % 6.28))
+    assert "the sign of angular.z changed" in DRIVING.how_it_turned(swings)
+    assert DRIVING.how_it_turned(recording(yaw=np.sin(NOW))) == "it turned to and fro"
+
+
 def test_the_conditions_before_a_speed_that_is_never_set():
     tests = [{"line": line, "code": f"if {line}:"} for line in (3, 5, 7)]
     said = DRIVING.stands(recording(turning=1 + 0 * NOW, tests=tests))

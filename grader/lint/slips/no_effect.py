@@ -64,25 +64,38 @@ def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:
 
 
 def changed_after_publish(tree: ast.AST) -> Iterator[Place]:
-    """Find a field that is set behind the publish() of its message, with no publish() after that in the block."""
-    for block in blocks(tree):
+    """Find a field that is set behind the publish() of its message, which nothing publishes after that."""
+    for function, block in ((each, block) for each in functions(tree) for block in blocks(each)):
         for i, statement in enumerate(block):
             name = _published(statement)
-            if not name:
+            if not name or name.startswith("self."):
                 continue
             later = block[i + 1 :]
-            if any(_published(each) == name or _makes(each, name) for each in later):
+            if any(_makes(each, name) for each in later) or _published_again(function, statement, name):
                 continue
             for each in later:
                 if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]).startswith(f"{name}."):
-                    if name.startswith("self."):
-                        continue
                     yield (
                         each.lineno,
                         f"{ast.unparse(each.targets[0])} is set after publish({name}) in line {statement.lineno}: what "
                         "was sent does not change any more",
                     )
                     break
+
+
+def _published_again(function: ast.FunctionDef, statement: ast.stmt, name: str) -> bool:
+    """Return whether a message is published behind a statement: further down, or in the next round of a loop."""
+    if any(each.lineno > statement.lineno and _published(each) == name for each in _statements(function)):
+        return True
+    for loop in _statements(function):
+        inside = list(_statements(loop)) if isinstance(loop, ast.For | ast.While) else []
+        if statement in inside and not any(_makes(each, name) for each in inside):
+            return True
+    return False
+
+
+def _statements(tree: ast.AST) -> Iterator[ast.stmt]:
+    return (each for each in ast.walk(tree) if isinstance(each, ast.stmt))
 
 
 def _published(statement: ast.stmt) -> str:

@@ -27,10 +27,12 @@ from gz_course.grader.lint.suspects import (
     known_places,
     lookups,
     old_values,
+    oldest,
     patrols,
     pictures,
     rays,
     same_places,
+    sleeps,
     smoothing,
     stale_parameters,
     steering_units,
@@ -66,6 +68,8 @@ LOOKS = (
     *waypoint_loops.LOOKS,
     *ages.LOOKS,
     *lookups.LOOKS,
+    *oldest.LOOKS,
+    *sleeps.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -10,6 +10,7 @@ from gz_course.grader.lint.suspects.headings import HEADING
 from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
 
 SHORTENS = frozenset({"pop", "popleft", "remove", "clear"})
+COLLECTS = frozenset({"append", "insert", "appendleft"})
 TURNS_ROUND = frozenset({"reverse", "reversed", "insert", "appendleft"})
 SMALL = re.compile(r"\bu?int8\b|['\"][iu]1['\"]")
 HOLDS = frozenset({"clip", "minimum", "maximum", "min", "max"})
@@ -80,30 +81,57 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
                     way = ast.unparse(kept)
                 case _:
                     continue
-            inside = {id(each) for part in node.body for each in ast.walk(part)}
-            init = {id(each) for one in functions(owner) if one.name == "__init__" for each in ast.walk(one)}
-            planned = [value for target, value in assigned(node) if ast.unparse(target) == way]
+            planners = _planners(owner, way)
+            in_test = {id(each) for part in node.body for each in ast.walk(part)}
+            there = {id(each) for one in functions(owner) if one.name in planners for each in ast.walk(one)}
+            planned = any(
+                ast.unparse(target) == way
+                and isinstance(value, ast.Call)
+                and last_name(value.func) in {one.name for one in functions(owner) if called(one) & COLLECTS}
+                for target, value in assigned(node)
+            )
+            calls_planner = planners & called(node)
+            # Whatever changes the way anywhere but where it is planned may take cells out of it.
+            inside = (
+                in_test
+                | there
+                | {id(each) for one in functions(owner) if one.name == "__init__" for each in ast.walk(one)}
+            )
             others = [
                 target
                 for target, _ in assigned(owner)
-                if ast.unparse(target).startswith(way) and id(target) not in inside | init
+                if ast.unparse(target).startswith(way) and id(target) not in inside
             ]
             shortened = any(
-                name in SHORTENS and ast.unparse(call.func).startswith(f"{way}.") for call, name in calls(owner)
+                name in SHORTENS and ast.unparse(call.func).startswith(f"{way}.") and id(call) not in there
+                for call, name in calls(owner)
             )
             deleted = any(isinstance(each, ast.Delete) and way in ast.unparse(each) for each in ast.walk(owner))
             followed = any(
                 isinstance(each, ast.Subscript) and ast.unparse(each.value) == way for each in ast.walk(owner)
             )
-            lists = {one.name for one in functions(owner) if called(one) & {"append", "insert", "appendleft"}}
-            plans = any(isinstance(value, ast.Call) and last_name(value.func) in lists for value in planned)
-            if plans and followed and not (others or shortened or deleted):
+            again = calls_planner and any(
+                last_name(call.func) in calls_planner and id(call) not in in_test for call, _ in calls(owner)
+            )
+            if (planned or calls_planner) and followed and not (others or shortened or deleted or again):
                 yield (
                     node.lineno,
                     "way",
                     f"{way} is planned only while it is empty, and nothing takes a cell out of it: the robot goes for "
                     "the same cell for ever. Take out the cells that are reached, or plan anew each time",
                 )
+
+
+def _planners(owner: ast.ClassDef, way: str) -> set[str]:
+    """Return the methods that collect a way cell by cell in an attribute themselves."""
+    return {
+        one.name
+        for one in functions(owner)
+        if one.name != "__init__"
+        and any(ast.unparse(target) == way for target, _ in assigned(one))
+        and (called(one) & COLLECTS)
+        and any(isinstance(each, ast.While) for each in ast.walk(one))
+    }
 
 
 def first_pose(tree: ast.AST) -> Iterator[Suspect]:

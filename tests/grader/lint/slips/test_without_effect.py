@@ -193,3 +193,16 @@ HARMLESS = [
 def test_what_works_is_not_named(old, new):
     assert old in RIGHT
     assert slips(RIGHT.replace(old, new).encode(), 8.0) == []
+
+
+@pytest.mark.parametrize(
+    "after",
+    [
+        "if self.done:\n            self.publisher.publish(command)\n            command.linear.x = 0.0\n"
+        "        self.publisher.publish(command)",
+        "for _ in range(3):\n            self.publisher.publish(command)\n            command.linear.x = 0.0",
+    ],
+)
+def test_a_message_that_is_changed_and_published_again(after):
+    text = RIGHT.replace("self.publisher.publish(command)", after)
+    assert text != RIGHT and slips(text.encode()) == []

@@ -117,3 +117,12 @@ def test_what_is_right_all_the_same(old, new):
     text = text.replace("2 * error", "-2 * error") if new == SIGN else text
     text = text.replace("before[beside] = cell", "before.add(beside)")  # a flood, not a way
     assert text != RIGHT and suspects(text.encode()) == []
+
+
+def test_a_way_that_another_method_plans_once():
+    planned = RIGHT.replace("self.way = self.plan()", "self.plan()").replace("return way[::-1]", "self.way = way[::-1]")
+    assert suspects(planned.encode()) == []
+    once = planned.replace("            self.way.pop(0)", "            pass")
+    assert [each["about"] for each in suspects(once.encode())] == ["way"]
+    again = once.replace("        self.counts[rows", "        self.plan()\n        self.counts[rows")
+    assert suspects(again.encode()) == []
