@@ -79,11 +79,8 @@ def silent(run, scans):
     if quiet.sum() < 15 or quiet.sum() < 0.05 * clear.sum():
         return ""
     near = float(np.percentile(error[quiet], 90))
-    if (
-        near > 0.12
-        or np.mean(answered[clear & (error < 0.7 * near)]) > 0.3
-        or not (error[clear & answered] > near).any()
-    ):
+    right = clear & (error < 0.7 * near)
+    if near > 0.12 or (answered & right).sum() > 0.3 * right.sum() or not (error[clear & answered] > near).any():
         return ""
     return (
         f"no command came for {quiet.sum()} of {clear.sum()} scans, those in which the distance was right within "

@@ -33,7 +33,7 @@ def unchanging(run, values):
     if abs(usual := found[counts.argmax()]) > 0.95 * LIMIT:
         return (
             f"angular.z is at its limit, {usual:.2f} rad/s, in nearly every command, whatever the lidar sees: the "
-            "error that it is made of is never small and never changes its sign; log that error, and look at its unit"
+            "error, or sum, that it is made of is never small and never changes its sign; log it, and look at its unit"
             f"{mirrored}"
         )
     return (
@@ -142,8 +142,8 @@ def offset(point, rates, asked, moving):
         return ""
     return (
         f"angular.z is still about {abs(gains[2]):.1f} rad/s {'towards' if gains[2] > 0 else 'away from'} the wall "
-        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, the nearest range "
-        "minus the parameter distance"
+        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, the nearest "
+        "range minus the parameter distance"
     )
 
 

@@ -129,7 +129,7 @@ def unchanging(run):
     if share > 0.3 and (why := suspect(run.recording, "unit")):
         return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
     said = LAW["unchanging"](run, values)
-    why = suspect(run.recording, "first_kept", "farthest") if said else ""
+    why = suspect(run.recording, "integral", "added", "first_kept", "farthest", "bearing") if said else ""
     return f"{said.partition(':')[0]}: {why}" if why else said
 
 

@@ -117,7 +117,7 @@ def test_the_law_of_a_right_follower_has_nothing_wrong(seen):
     rates = np.clip(4 * error + 2 * away, -1.5, 1.5)
     assert LAW["late"](point, rates, asked) == LAW["deaf"](point, rates, asked) == ""
     assert LAW["without_sign"](point, rates, asked) == LAW["opposite"](run(seen[0], rates), point, rates, asked) == ""
-    assert LAW["unchanging"](run([0.0], rates), rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
+    assert LAW["unchanging"](run(seen[0], rates), rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
 
 
 def test_wrong_laws_are_named(seen):

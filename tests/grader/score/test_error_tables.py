@@ -51,6 +51,7 @@ ERRORS = (
     "InvalidArgumentException: Invalid argument '/odom' passed to lookupTransform argument target_frame",
     "InvalidTopicNameException: Invalid topic name: topic name must not contain characters other than",
     "InvalidQoSProfileException: Invalid QoS profile: History set to KEEP_LAST without a depth setting.",
+    "InvalidParameterTypeException: Trying to set parameter 'a' to '0.6' of type 'DOUBLE', expecting type 'INTEGER'",
     "KeyError: 'left'",
     "ModuleNotFoundError: No module named 'geometry_msgs.messages'",
     "ModuleNotFoundError: No module named 'scipy'",
