@@ -66,6 +66,19 @@ def speed_by_distance(run):
     )
 
 
+def other_axes(run):
+    """Find out whether the commands turn about an axis, or drive along one, that no robot on the ground has."""
+    for name, right in (("angular/x", "angular/z"), ("angular/y", "angular/z"), ("linear/y", "linear/x")):
+        values = np.abs(run.recording.signal(f"topics/cmd_vel/{name}").values)
+        if len(values) and (values > 0.05).mean() > 0.2:
+            wrong, instead = name.replace("/", "."), right.replace("/", ".")
+            return (
+                f"{wrong} is up to {values.max():.2f} in your commands, which a robot on two wheels cannot follow: it "
+                f"{'turns by' if 'angular' in name else 'drives by'} {instead}"
+            )
+    return ""
+
+
 def silent(run, scans):
     """Find out whether no command comes as long as the distance is about right: the robot goes on with the last one."""
     times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
@@ -117,3 +130,29 @@ def counted_turns(run):
                 "the clock, or the lidar"
             )
     return ""
+
+
+def weak(run):
+    """Find out whether the robot never turns much, however wrong its distance is."""
+    rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    late = run.times > 3.0
+    worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
+    if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
+        return ""
+    return (
+        f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
+        "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
+    )
+
+
+def against_a_wall(run):
+    """Find out whether the robot was stopped by a wall."""
+    if not run.touches.any():
+        return ""
+    first = int(np.argmax(run.touches))
+    if run.times[first] > run.times[-1] - 3 or np.abs(run.along[first:]).sum() > 1.0:
+        return ""
+    return (
+        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: it turned too late or too little, "
+        "as with a gain that is too low, or if the wall ahead is not looked at"
+    )

@@ -15,7 +15,7 @@ def opposite(run, point, rates, asked):
     """Return whether the robot turns the other way than it must wherever that is clear; empty if not."""
     wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
     clear = (np.abs(wanted) > 0.6) & (np.abs(rates) > 0.1)
-    if clear.sum() < FEWEST or np.mean(np.sign(rates[clear]) == np.sign(wanted[clear])) > 0.05:
+    if clear.sum() < FEWEST / 2 or np.mean(np.sign(rates[clear]) == np.sign(wanted[clear])) > 0.05:
         return ""
     return (
         "angular.z has the wrong sign: where the robot must turn to the left it turns to the right, and the other way "
@@ -49,13 +49,14 @@ def one_way(run, point, rates, asked):
     if len(turning) < FEWEST:
         return ""
     way = float(np.sign(np.median(turning)))
-    needed = np.sign(wanted[np.abs(wanted) > 0.3]) == -way
-    if np.mean(np.sign(turning) == way) < 0.99 or needed.sum() < 20:
+    needed = (np.sign(wanted) == -way) & (np.abs(wanted) > 0.3)
+    wrong = way * (point[:, 0] - asked) < -0.05  # too near while it turns towards the wall, or too far while away
+    if np.mean(np.sign(turning) == way) < 0.99 or (needed & wrong).sum() < 20:
         return ""
     side = "left" if way * run.sign > 0 else "right"
     return (
-        f"angular.z turns the robot to the {side} only, also in {needed.sum()} scans in which it must turn the other "
-        "way: the error that it is made of never changes its sign; an error is a difference, what is measured minus "
+        f"angular.z turns the robot to the {side} only, also in {(needed & wrong).sum()} scans in which it must turn "
+        "the other way: the error that it is made of never changes its sign; an error is what is measured minus "
         "what is wanted, with its sign"
     )
 
@@ -130,10 +131,10 @@ def without_sign(point, rates, asked):
     )
 
 
-def offset(point, rates, asked, moving):
+def offset(point, rates, asked):
     """Return which rate is commanded where nothing is wrong, if that is far from 0; empty if it is not."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
-    clear = moving & (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < 0.5) & (np.abs(away) < 1.0)
+    clear = (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < 0.5) & (np.abs(away) < 1.0)
     if clear.sum() < 25 or rates[clear].std() < 0.05 or away[clear].std() < 0.03:
         return ""
     terms = np.stack([error, away], axis=1)[clear]
@@ -144,6 +145,22 @@ def offset(point, rates, asked, moving):
         f"angular.z is still about {abs(gains[2]):.1f} rad/s {'towards' if gains[2] > 0 else 'away from'} the wall "
         "where the distance is right and the wall abeam: the error that it is made of must be 0 there, the nearest "
         "range minus the parameter distance"
+    )
+
+
+def strong(point, rates, asked):
+    """Return the gain of the distance if that is far too high for the time between two scans; empty if it is not."""
+    error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
+    clear = (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < NEAR)
+    if clear.sum() < FEWEST or error[clear].std() < 0.01:
+        return ""
+    terms = np.stack([error, away], axis=1)[clear]
+    gains = np.linalg.lstsq(np.hstack([terms, np.ones((len(terms), 1))]), rates[clear], rcond=None)[0]
+    if _explained(terms, rates[clear]) < 0.6 or gains[0] < 7 or gains[0] < 3 * gains[1]:
+        return ""
+    return (
+        f"angular.z answers the distance by {gains[0]:.0f} rad/s for each metre of error, and the heading by "
+        f"{max(gains[1], 0.0):.1f} rad/s for each radian: the gain of the distance is far too high, so the robot swings"
     )
 
 

@@ -28,6 +28,7 @@ def explain(run):
         other_side,
         lambda run: DRIVING["zero_rays"](run, *scans(run)),
         DRIVING["speed_by_distance"],
+        DRIVING["other_axes"],
         lambda run: DRIVING["silent"](run, scans(run)[0]),
         unchanging,
         one_way,
@@ -51,9 +52,10 @@ def explain(run):
         wrong_sign,
         wound_up,
         saturated,
+        lambda run: LAW["strong"](*point_and_rates(run)) if len(scans(run)[0]) else "",
         swings,
-        weak,
-        against_a_wall,
+        DRIVING["weak"],
+        DRIVING["against_a_wall"],
         elsewhere,
         DRIVING["slow"],
     )
@@ -116,11 +118,15 @@ def signs(run):
     return STEERING["signs"](run, times, bearings, ranges) if len(times) else ""
 
 
-def point_and_rates(run):
-    """Return the nearest points of the side in all scans that were answered, the turning rates and the distances."""
+def point_and_rates(run, standing=False):
+    """Return the nearest points of the side in all scans that were answered, the turning rates and the distances.
+
+    Those in which the robot stands, such as against a wall, are left out: they are one scan many times over.
+    """
     times, bearings, ranges = scans(run)
     heard, rates, asked = STEERING["answered"](run, times)
-    return STEERING["measured"](bearings, ranges[heard])["right"], rates, asked
+    point, chosen = STEERING["measured"](bearings, ranges[heard])["right"], moving(run) | standing
+    return point[chosen], rates[chosen], asked[chosen]
 
 
 def unchanging(run):
@@ -140,7 +146,7 @@ def one_way(run):
 def late(run):
     """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
     why = suspect(run.recording, "delay", "farthest")
-    return why or (LAW["late"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else "")
+    return why or (LAW["late"](*point_and_rates(run, standing=True), moving(run)) if len(scans(run)[0]) else "")
 
 
 def moving(run):
@@ -151,7 +157,7 @@ def moving(run):
 
 
 def offset(run):
-    return LAW["offset"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else ""
+    return LAW["offset"](*point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
 def opposite(run):
@@ -308,32 +314,6 @@ def swings(run):
     return (
         f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
         "only the distance is fed back, or the gain is too high for the time between two scans"
-    )
-
-
-def weak(run):
-    """Find out whether the robot never turns much, however wrong its distance is."""
-    rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
-    late = run.times > 3.0
-    worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
-    if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
-        return ""
-    return (
-        f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
-        "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
-    )
-
-
-def against_a_wall(run):
-    """Find out whether the robot was stopped by a wall."""
-    if not run.touches.any():
-        return ""
-    first = int(np.argmax(run.touches))
-    if run.times[first] > run.times[-1] - 3 or np.abs(run.along[first:]).sum() > 1.0:
-        return ""
-    return (
-        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: it turned too late or too little, "
-        "as with a gain that is too low, or if the wall ahead is not looked at"
     )
 
 

@@ -134,11 +134,12 @@ def test_wrong_laws_are_named(seen):
     assert LAW["unchanging"](beside, right) == ""
     assert "is at its limit, 1.50 rad/s" in LAW["unchanging"](beside, 0 * right + 1.5)
     assert "in nearly every command" in LAW["unchanging"](beside, 0 * right + 0.4)
-    moving = np.ones(SCANS, bool)
-    assert LAW["offset"](point, right, asked, moving) == LAW["one_way"](beside, point, right, asked) == ""
-    assert "still about 0.8 rad/s towards the wall" in LAW["offset"](point, right + 0.8, asked, moving)
+    assert LAW["offset"](point, right, asked) == LAW["one_way"](beside, point, right, asked) == ""
+    assert "still about 0.8 rad/s towards the wall" in LAW["offset"](point, right + 0.8, asked)
+    assert LAW["strong"](point, right, asked) == ""
+    assert "by 9 rad/s for each metre" in LAW["strong"](point, np.clip(9 * error + 1 * away, -1.5, 1.5), asked)
     assert "to the left only" in LAW["one_way"](beside, point, np.abs(right), asked)
-    assert LAW["late"](point, smooth, asked, ~moving) == ""
+    assert LAW["late"](point, smooth, asked, np.zeros(SCANS, bool)) == ""
 
 
 @pytest.mark.parametrize(
@@ -223,3 +224,12 @@ def test_a_node_that_is_silent_while_all_is_right_is_named():
     assert "no command came for" in DRIVING["silent"](run, run.times)
     run.recording.signal = lambda name: signal
     assert DRIVING["silent"](run, run.times) == ""
+
+
+def test_a_rate_about_another_axis_is_named():
+    run = driven(0.0, 0.4, 0.6)
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    run.recording.signal = lambda name: Signal(signal.times, signal.values * (name[-1] == "x"))
+    assert "angular.x is up to 0.40" in DRIVING["other_axes"](run)
+    run.recording.signal = lambda name: Signal(signal.times, signal.values * (name.endswith(("linear/x", "z"))))
+    assert DRIVING["other_axes"](run) == ""
