@@ -49,6 +49,19 @@ def straight_on(run):
     return ""
 
 
+def circles(run):
+    """Find out whether the robot turns to one side all the time, for several full turns."""
+    rates = run.recording.signal("topics/cmd_vel/angular/z").values
+    turned = np.diff(run.times) @ run.turning[:-1] / (2 * np.pi)
+    if len(rates) < 50 or abs(turned) < 2 or np.mean(np.sign(rates) == np.sign(turned)) < 0.98:
+        return ""
+    side, least = "left" if turned > 0 else "right", float(np.percentile(np.abs(rates), 5))
+    return (
+        f"the robot drives in circles, {abs(turned):.1f} of them: angular.z always turns it to the {side}, by "
+        f"{least:.1f} rad/s or more, so the error that it is made of never becomes small or changes its sign"
+    )
+
+
 def speed_by_distance(run):
     """Find out whether linear.x follows the parameter distance: its largest value changes with it."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
@@ -152,7 +165,10 @@ def against_a_wall(run):
     first = int(np.argmax(run.touches))
     if run.times[first] > run.times[-1] - 3 or np.abs(run.along[first:]).sum() > 1.0:
         return ""
+    before = (run.times > run.times[first] - 1.5) & (run.times < run.times[first])
+    rate = float((run.sign * run.turning[before]).mean()) if before.any() else 0.0
+    how = f"turned towards the wall on its {run.side}" if rate > 0.1 else "turned away too little or too late"
     return (
-        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: it turned too late or too little, "
-        "as with a gain that is too low, or if the wall ahead is not looked at"
+        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: in the 1.5 s before it {how}, by "
+        f"{abs(rate):.1f} rad/s on average"
     )

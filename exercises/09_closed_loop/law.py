@@ -8,6 +8,7 @@ import numpy as np
 LIMIT = 1.5  # [rad/s]
 NEAR = 0.35  # [m] error up to which the approach grows with the error in most programs
 FEWEST = 60  # scans
+CONSTANTS = np.arange(-4.0, 4.01, 0.2)  # [rad/s]
 WINDOWS, SHARES = (8, 12, 20, 30, 40), (0.15, 0.1, 0.07, 0.05, 0.03)  # of moving averages: scans, weight of the newest
 
 
@@ -131,21 +132,35 @@ def without_sign(point, rates, asked):
     )
 
 
+def _fit(error, away, rates, constants):
+    """Yield how much of the rates limited sums of both errors and a constant explain, and the constant."""
+    for near in (0, 1, 2, 4, 6):
+        for turned in (0.5, 1, 2, 3, 4):
+            sums = near * np.clip(error, -NEAR, NEAR) + turned * away
+            for constant in constants:
+                left = rates - np.clip(sums + constant, -LIMIT, LIMIT)
+                yield float(1 - np.mean(left**2) / max(rates.var(), 1e-9)), float(constant)
+
+
 def offset(point, rates, asked):
     """Return which rate is commanded where nothing is wrong, if that is far from 0; empty if it is not."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
-    clear = (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < 0.5) & (np.abs(away) < 1.0)
-    if clear.sum() < 25 or rates[clear].std() < 0.05 or away[clear].std() < 0.03:
+    if len(rates) < FEWEST / 2 or rates.var() < 0.02:
         return ""
-    terms = np.stack([error, away], axis=1)[clear]
-    gains = np.linalg.lstsq(np.hstack([terms, np.ones((len(terms), 1))]), rates[clear], rcond=None)[0]
-    if _explained(terms, rates[clear]) < 0.75 or abs(gains[2]) < 0.5 or gains[1] < 0.5:
+    none, constant = max(_fit(error, away, rates, [0.0])), max(_fit(error, away, rates, CONSTANTS))
+    if constant[0] < 0.8 or 1 - constant[0] > 0.4 * (1 - none[0]) or abs(constant[1]) < 0.5:
         return ""
+    rate = constant[1]
     return (
-        f"angular.z is still about {abs(gains[2]):.1f} rad/s {'towards' if gains[2] > 0 else 'away from'} the wall "
-        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, the nearest "
-        "range minus the parameter distance"
+        f"angular.z is still about {min(abs(rate), LIMIT):.1f} rad/s {'towards' if rate > 0 else 'away from'} the wall "
+        "where the distance is right and the wall abeam: the error that it is made of must be 0 there: the nearest "
+        "range minus the parameter distance, and the bearing of that point minus pi/2"
     )
+
+
+def answers_old(point, rates, old, new):
+    """Return whether the commands fit an old distance [m] clearly better than the new one."""
+    return agrees(point, rates, np.full(len(rates), old)) > agrees(point, rates, np.full(len(rates), new)) + 0.1
 
 
 def strong(point, rates, asked):

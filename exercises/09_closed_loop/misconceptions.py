@@ -51,6 +51,7 @@ def explain(run):
         old_distance,
         wrong_sign,
         wound_up,
+        DRIVING["circles"],
         saturated,
         lambda run: LAW["strong"](*point_and_rates(run)) if len(scans(run)[0]) else "",
         swings,
@@ -253,7 +254,13 @@ def old_distance(run):
     kept = float(np.median(run.distance[before])) if before.any() else run.asked[0]
     if abs(usual - run.asked[0]) > KEPT or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
         return ""
-    why = suspect(run.recording, "parameter distance", "parameter") or "its new value does not reach what it steers by"
+    why = suspect(run.recording, "parameter distance", "parameter")
+    if not why and len(scans(run)[0]):
+        point, rates, asked = point_and_rates(run)
+        new = asked == run.asked[-1]
+        if not LAW["answers_old"](point[new], rates[new], run.asked[0], run.asked[-1]):
+            return ""
+    why = why or "its new value does not reach what it steers by"
     return (
         f"the robot still keeps {usual:.2f} m, although distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m "
         f"at {run.changed:g} s: {why}"
@@ -296,8 +303,10 @@ def saturated(run):
             f"angular.z was at its limit in {share:.0%} of the commands, and jumped from one limit to the other "
             f"{jumps.sum()} times: the gain is far too high for the time between two scans"
         )
-    why = suspect(run.recording, "integral") or "the gain is far too high"
-    return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
+    left = float((signal.values > 1.45).mean())
+    why = suspect(run.recording, "integral") or (LAW["strong"](*point_and_rates(run)) if len(scans(run)[0]) else "")
+    often = f"to the left in {left:.0%} and to the right in {share - left:.0%} of them"
+    return f"angular.z was at its limit in {share:.0%} of the commands: {why or often}"
 
 
 def integrated(run):

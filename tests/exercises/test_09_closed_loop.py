@@ -233,3 +233,11 @@ def test_a_rate_about_another_axis_is_named():
     assert "angular.x is up to 0.40" in DRIVING["other_axes"](run)
     run.recording.signal = lambda name: Signal(signal.times, signal.values * (name.endswith(("linear/x", "z"))))
     assert DRIVING["other_axes"](run) == ""
+
+
+def test_circles_are_named():
+    run = driven(1.2, 0.4, 1.3)
+    run.turning = np.full(300, 1.2)
+    assert "in circles, 5.7 of them: angular.z always turns it to the left" in DRIVING["circles"](run)
+    run.turning = np.where(np.arange(300) % 50 < 25, 1.2, -1.2)
+    assert DRIVING["circles"](run) == ""

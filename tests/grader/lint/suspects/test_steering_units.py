@@ -64,6 +64,7 @@ ZERO = "            rays.append((r, b))"
         ({"body": "command.angular.z = GAIN * max(-1.5, min(1.5, r - far))"}, "limit"),
         ({"body": "w = np.clip(r - far, -1.5, 1.5)\n        command.angular.z = float(GAIN * w)"}, "limit"),
         ({"body": "hits = [(b, r) for r in scan.ranges]\n        b, r = min(hits)\n" + TURN + "r"}, "farthest"),
+        ({"ray": KEEPS.replace("(r, {})", "(round(r), b)")}, "farthest"),
         ({"ray": f"r = r if isfinite(r) else 0.0\n{ZERO}"}, "zero"),
         ({"ray": f"if not isfinite(r):\n                r = 0.0\n{ZERO}"}, "zero"),
         ({"ray": "rays.append((r, b))", "body": "r = np.nan_to_num(r, posinf=0)\n" + TURN + "r"}, "zero"),
