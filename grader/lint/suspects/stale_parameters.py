@@ -31,8 +31,13 @@ def stale(tree: ast.Module) -> Iterator[Suspect]:
         return
     inside, start, heard = owners(tree), only_at_the_start(tree), listeners(tree)
     found = list(reads(tree))
-    if any(not name for _, name in found):
-        return  # a name is not written as a text, so it may be any of them
+    unnamed = [call for call, name in found if not name]  # which may read any of them
+    if unnamed:
+        if not heard and all(inside[id(call)] in start - {MODULE} for call, _ in found):
+            once = f"{ast.unparse(unnamed[0])[:60]} is read only once, in {inside[id(unnamed[0])]}"
+            words = f"{once}; read parameters in each callback of a scan"
+            yield from ((unnamed[0].lineno, f"parameter {name}", words) for name in known)
+        return
     for name, (line, default) in known.items():
         where = [(call, inside[id(call)]) for call, other in found if other == name]
         later = [call for call, function in where if function not in start]

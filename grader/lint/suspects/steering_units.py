@@ -162,9 +162,8 @@ def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.ex
     for target, value in assigned(function):
         if ast.unparse(target).endswith("angular.z"):
             parts = list(ast.walk(value))
-            parts += [
-                each for name in parts if ast.unparse(name) in values for each in ast.walk(values[ast.unparse(name)])
-            ]  # type: ignore[arg-type]
+            names = [ast.unparse(each) for each in parts if isinstance(each, ast.Name | ast.Attribute)]
+            parts += [each for name in names if name in values for each in ast.walk(values[name])]
             limits = any(
                 isinstance(each, ast.Call)
                 and last_name(each.func) in ("clip", "min", "max")

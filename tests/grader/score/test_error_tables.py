@@ -51,6 +51,8 @@ ERRORS = (
     "InvalidArgumentException: Invalid argument '/odom' passed to lookupTransform argument target_frame",
     "InvalidTopicNameException: Invalid topic name: topic name must not contain characters other than",
     "InvalidQoSProfileException: Invalid QoS profile: History set to KEEP_LAST without a depth setting.",
+    "AttributeError: 'ParameterValue' object has no attribute 'value'",
+    "TypeError: SetParametersResult.__init__() takes 1 positional argument but 2 were given",
     "InvalidParameterTypeException: Trying to set parameter 'a' to '0.6' of type 'DOUBLE', expecting type 'INTEGER'",
     "KeyError: 'left'",
     "ModuleNotFoundError: No module named 'geometry_msgs.messages'",

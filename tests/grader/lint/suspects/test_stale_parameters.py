@@ -57,6 +57,10 @@ def test_right_ways(changed):
     [
         ({"init": READ, "scan": KEPT}, "read only once, in __init__, and on_scan() goes on with that value"),
         ({"init": "self.far = self.param('distance')", "scan": KEPT}, "is read only once, in __init__"),
+        (
+            {"init": "self.far = self.get_parameters(['distance'])[0].value", "scan": KEPT},
+            "self.get_parameters(['distance']) is read only once, in __init__",
+        ),
         ({"scan": "far = 0.6"}, "nothing reads it later"),
         ({"scan": f"if self.far is None:\n            {READ}\n        {KEPT}"}, "in the block of  if self.far is None"),
         ({"scan": f"if not self.far:\n            {READ}\n        {KEPT}"}, "in the block of  if not self.far"),
