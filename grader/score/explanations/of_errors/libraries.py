@@ -103,8 +103,8 @@ MEANINGS = (
         "get_parameter_value() has one field for each type, such as .double_value; .value of the parameter is simpler",
     ),
     (
-        re.compile(r"TypeError: (?:SetParametersResult|Twist|Vector3|Point|String)\.__init__\(\) takes 1 positional"),
-        "the fields of a message are given by name, as in SetParametersResult(successful=True) or Vector3(x=1.0)",
+        re.compile(r"TypeError: SetParametersResult\.__init__\(\) takes 1 positional"),
+        "the fields of a message are given by name: SetParametersResult(successful=True)",
     ),
     (
         re.compile(r"ParameterNotDeclaredException: Invalid access to undeclared parameter\(s\): (\w+)"),
