@@ -163,6 +163,33 @@ def answers_old(point, rates, old, new):
     return agrees(point, rates, np.full(len(rates), old)) > agrees(point, rates, np.full(len(rates), new)) + 0.1
 
 
+def left_alone(point, rates, asked):
+    """Return whether angular.z is exactly 0 where the distance is about right, however wrong the heading is."""
+    error, away = np.abs(point[:, 0] - asked), np.abs(point[:, 1] - np.pi / 2)
+    none = np.abs(rates) < 1e-6
+    if none.sum() < 15 or (~none).sum() < 15 or np.percentile(error[none], 95) > 0.25 or away[none].max() < 0.2:
+        return ""
+    within = float(np.percentile(error[none], 95))
+    if none[error < 0.7 * within].mean() < 0.8:
+        return ""
+    return (
+        f"angular.z is exactly 0 in {none.sum()} scans, those in which the distance was right within {within:.2f} m, "
+        f"although the heading was wrong by up to {away[none].max():.1f} rad then: the robot leaves that band at an "
+        "angle; correct the heading there, too"
+    )
+
+
+def heeds_heading(point, rates, asked):
+    """Return whether the turning rates depend on the heading, too, as far as that can be seen."""
+    error, away = np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2
+    clear = np.abs(rates) < 0.95 * LIMIT
+    if clear.sum() < FEWEST or rates[clear].var() < 1e-3:
+        return False
+    alone, both = error[clear, None], np.stack([error, away], axis=1)[clear]
+    share = _explained(both, rates[clear])
+    return share > 0.8 and 1 - share < 0.3 * (1 - _explained(alone, rates[clear])) - 1e-6
+
+
 def strong(point, rates, asked):
     """Return the gain of the distance if that is far too high for the time between two scans; empty if it is not."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2

@@ -36,6 +36,7 @@ def explain(run):
         opposite,
         without_sign,
         deaf,
+        lambda run: LAW["left_alone"](*point_and_rates(run)) if len(scans(run)[0]) else "",
         kept_beside,
         offset,
         gaps,
@@ -320,10 +321,12 @@ def swings(run):
     changes = int(np.count_nonzero(np.diff(signs)))
     if changes < 4:
         return ""
-    return (
-        f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
-        "only the distance is fed back, or the gain is too high for the time between two scans"
+    said = (
+        f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m"
     )
+    if len(scans(run)[0]) and LAW["heeds_heading"](*point_and_rates(run)):
+        return f"{said}: angular.z answers the distance too strongly, or too late, beside the heading"
+    return f"{said}: only the distance is fed back, or the gain is too high for the time between two scans"
 
 
 def elsewhere(run):

@@ -138,6 +138,12 @@ def test_wrong_laws_are_named(seen):
     assert "still about 0.8 rad/s towards the wall" in LAW["offset"](point, right + 0.8, asked)
     assert LAW["strong"](point, right, asked) == ""
     assert "by 9 rad/s for each metre" in LAW["strong"](point, np.clip(9 * error + 1 * away, -1.5, 1.5), asked)
+    assert LAW["left_alone"](point, right, asked) == "" and LAW["heeds_heading"](point, right, asked)
+    band = np.where(np.abs(point[:, 0] - asked) < 0.1, 0.0, right)
+    assert "right within 0.1" in LAW["left_alone"](point, band, asked)
+    assert not LAW["heeds_heading"](point, 4 * error, asked)
+    assert LAW["answers_old"](point, 4 * error + 2 * away, 0.6, 0.9)
+    assert not LAW["answers_old"](point, 4 * error + 2 * away, 0.9, 0.6)
     assert "to the left only" in LAW["one_way"](beside, point, np.abs(right), asked)
     assert LAW["late"](point, smooth, asked, np.zeros(SCANS, bool)) == ""
 

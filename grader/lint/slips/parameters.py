@@ -263,6 +263,14 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
             and re.match(r"\w+", ast.unparse(node.value))[0] in single | whole  # type: ignore[index]
         ]  # fmt: skip
         code = ast.unparse(function)
+        seen: dict[str, ast.Assign] = {}
+        for node in takes:
+            if (first := seen.setdefault(ast.unparse(node.targets[0]), node)) is not node and ".name" in code:
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]} puts the value of another parameter into what line {first.lineno} "
+                    "sets: each parameter needs an attribute of its own",
+                )
         if takes and len(known) > 1 and ".name" not in code and "continue" not in code:
             yield takes[0].lineno, _any(ast.unparse(takes[0]), sorted(known))
             continue

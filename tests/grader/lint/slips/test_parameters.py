@@ -86,6 +86,7 @@ def test_right_ways(changed):
         ({"changed": "if 'distance' in parameters:\n            self.read_all()"}, "a list of Parameter objects"),
         ({"changed": "self.now = self.get_parameter('distance').value"}, "changed() is called before the new value"),
         ({"changed": "self.read()"}, "changed(), which calls read(), is called before the new value"),
+        ({"changed": TAKES.replace("self.limit", "self.far")}, "puts the value of another parameter into what line"),
         ({"changed": "self.far = parameters[0].value"}, "distance and of side and of speed_limit alike"),
         ({"changed": TAKES.replace("elif", "if")}, "distance and of speed_limit alike"),
     ],
