@@ -49,6 +49,19 @@ def straight_on(run):
     return ""
 
 
+def circles(run):
+    """Find out whether the robot turns to one side all the time, for several full turns."""
+    rates = run.recording.signal("topics/cmd_vel/angular/z").values
+    turned = np.diff(run.times) @ run.turning[:-1] / (2 * np.pi)
+    if len(rates) < 50 or abs(turned) < 2 or np.mean(np.sign(rates) == np.sign(turned)) < 0.98:
+        return ""
+    side, least = "left" if turned > 0 else "right", float(np.percentile(np.abs(rates), 5))
+    return (
+        f"the robot drives in circles, {abs(turned):.1f} of them: angular.z always turns it to the {side}, by "
+        f"{least:.1f} rad/s or more, so the error that it is made of never becomes small or changes its sign"
+    )
+
+
 def speed_by_distance(run):
     """Find out whether linear.x follows the parameter distance: its largest value changes with it."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
@@ -66,6 +79,19 @@ def speed_by_distance(run):
     )
 
 
+def other_axes(run):
+    """Find out whether the commands turn about an axis, or drive along one, that no robot on the ground has."""
+    for name, right in (("angular/x", "angular/z"), ("angular/y", "angular/z"), ("linear/y", "linear/x")):
+        values = np.abs(run.recording.signal(f"topics/cmd_vel/{name}").values)
+        if len(values) and (values > 0.05).mean() > 0.2:
+            wrong, instead = name.replace("/", "."), right.replace("/", ".")
+            return (
+                f"{wrong} is up to {values.max():.2f} in your commands, which a robot on two wheels cannot follow: it "
+                f"{'turns by' if 'angular' in name else 'drives by'} {instead}"
+            )
+    return ""
+
+
 def silent(run, scans):
     """Find out whether no command comes as long as the distance is about right: the robot goes on with the last one."""
     times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
@@ -79,11 +105,8 @@ def silent(run, scans):
     if quiet.sum() < 15 or quiet.sum() < 0.05 * clear.sum():
         return ""
     near = float(np.percentile(error[quiet], 90))
-    if (
-        near > 0.12
-        or np.mean(answered[clear & (error < 0.7 * near)]) > 0.3
-        or not (error[clear & answered] > near).any()
-    ):
+    right = clear & (error < 0.7 * near)
+    if near > 0.12 or (answered & right).sum() > 0.3 * right.sum() or not (error[clear & answered] > near).any():
         return ""
     return (
         f"no command came for {quiet.sum()} of {clear.sum()} scans, those in which the distance was right within "
@@ -120,3 +143,32 @@ def counted_turns(run):
                 "the clock, or the lidar"
             )
     return ""
+
+
+def weak(run):
+    """Find out whether the robot never turns much, however wrong its distance is."""
+    rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    late = run.times > 3.0
+    worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
+    if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
+        return ""
+    return (
+        f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
+        "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
+    )
+
+
+def against_a_wall(run):
+    """Find out whether the robot was stopped by a wall."""
+    if not run.touches.any():
+        return ""
+    first = int(np.argmax(run.touches))
+    if run.times[first] > run.times[-1] - 3 or np.abs(run.along[first:]).sum() > 1.0:
+        return ""
+    before = (run.times > run.times[first] - 1.5) & (run.times < run.times[first])
+    rate = float((run.sign * run.turning[before]).mean()) if before.any() else 0.0
+    how = f"turned towards the wall on its {run.side}" if rate > 0.1 else "turned away too little or too late"
+    return (
+        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: in the 1.5 s before it {how}, by "
+        f"{abs(rate):.1f} rad/s on average"
+    )

@@ -8,6 +8,7 @@ import numpy as np
 LIMIT = 1.5  # [rad/s]
 NEAR = 0.35  # [m] error up to which the approach grows with the error in most programs
 FEWEST = 60  # scans
+CONSTANTS = np.arange(-4.0, 4.01, 0.2)  # [rad/s]
 WINDOWS, SHARES = (8, 12, 20, 30, 40), (0.15, 0.1, 0.07, 0.05, 0.03)  # of moving averages: scans, weight of the newest
 
 
@@ -15,7 +16,7 @@ def opposite(run, point, rates, asked):
     """Return whether the robot turns the other way than it must wherever that is clear; empty if not."""
     wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
     clear = (np.abs(wanted) > 0.6) & (np.abs(rates) > 0.1)
-    if clear.sum() < FEWEST or np.mean(np.sign(rates[clear]) == np.sign(wanted[clear])) > 0.05:
+    if clear.sum() < FEWEST / 2 or np.mean(np.sign(rates[clear]) == np.sign(wanted[clear])) > 0.05:
         return ""
     return (
         "angular.z has the wrong sign: where the robot must turn to the left it turns to the right, and the other way "
@@ -33,7 +34,7 @@ def unchanging(run, values):
     if abs(usual := found[counts.argmax()]) > 0.95 * LIMIT:
         return (
             f"angular.z is at its limit, {usual:.2f} rad/s, in nearly every command, whatever the lidar sees: the "
-            "error that it is made of is never small and never changes its sign; log that error, and look at its unit"
+            "error, or sum, that it is made of is never small and never changes its sign; log it, and look at its unit"
             f"{mirrored}"
         )
     return (
@@ -49,13 +50,14 @@ def one_way(run, point, rates, asked):
     if len(turning) < FEWEST:
         return ""
     way = float(np.sign(np.median(turning)))
-    needed = np.sign(wanted[np.abs(wanted) > 0.3]) == -way
-    if np.mean(np.sign(turning) == way) < 0.99 or needed.sum() < 20:
+    needed = (np.sign(wanted) == -way) & (np.abs(wanted) > 0.3)
+    wrong = way * (point[:, 0] - asked) < -0.05  # too near while it turns towards the wall, or too far while away
+    if np.mean(np.sign(turning) == way) < 0.99 or (needed & wrong).sum() < 20:
         return ""
     side = "left" if way * run.sign > 0 else "right"
     return (
-        f"angular.z turns the robot to the {side} only, also in {needed.sum()} scans in which it must turn the other "
-        "way: the error that it is made of never changes its sign; an error is a difference, what is measured minus "
+        f"angular.z turns the robot to the {side} only, also in {(needed & wrong).sum()} scans in which it must turn "
+        "the other way: the error that it is made of never changes its sign; an error is what is measured minus "
         "what is wanted, with its sign"
     )
 
@@ -130,20 +132,77 @@ def without_sign(point, rates, asked):
     )
 
 
-def offset(point, rates, asked, moving):
+def _fit(error, away, rates, constants):
+    """Yield how much of the rates limited sums of both errors and a constant explain, and the constant."""
+    for near in (0, 1, 2, 4, 6):
+        for turned in (0.5, 1, 2, 3, 4):
+            sums = near * np.clip(error, -NEAR, NEAR) + turned * away
+            for constant in constants:
+                left = rates - np.clip(sums + constant, -LIMIT, LIMIT)
+                yield float(1 - np.mean(left**2) / max(rates.var(), 1e-9)), float(constant)
+
+
+def offset(point, rates, asked):
     """Return which rate is commanded where nothing is wrong, if that is far from 0; empty if it is not."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
-    clear = moving & (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < 0.5) & (np.abs(away) < 1.0)
-    if clear.sum() < 25 or rates[clear].std() < 0.05 or away[clear].std() < 0.03:
+    if len(rates) < FEWEST / 2 or rates.var() < 0.02:
+        return ""
+    none, constant = max(_fit(error, away, rates, [0.0])), max(_fit(error, away, rates, CONSTANTS))
+    if constant[0] < 0.8 or 1 - constant[0] > 0.4 * (1 - none[0]) or abs(constant[1]) < 0.5:
+        return ""
+    rate = constant[1]
+    return (
+        f"angular.z is still about {min(abs(rate), LIMIT):.1f} rad/s {'towards' if rate > 0 else 'away from'} the wall "
+        "where the distance is right and the wall abeam: the error that it is made of must be 0 there: the nearest "
+        "range minus the parameter distance, and the bearing of that point minus pi/2"
+    )
+
+
+def answers_old(point, rates, old, new):
+    """Return whether the commands fit an old distance [m] clearly better than the new one."""
+    return agrees(point, rates, np.full(len(rates), old)) > agrees(point, rates, np.full(len(rates), new)) + 0.1
+
+
+def left_alone(point, rates, asked):
+    """Return whether angular.z is exactly 0 where the distance is about right, however wrong the heading is."""
+    error, away = np.abs(point[:, 0] - asked), np.abs(point[:, 1] - np.pi / 2)
+    none = np.abs(rates) < 1e-6
+    if none.sum() < 15 or (~none).sum() < 15 or np.percentile(error[none], 95) > 0.25 or away[none].max() < 0.2:
+        return ""
+    within = float(np.percentile(error[none], 95))
+    if none[error < 0.7 * within].mean() < 0.8:
+        return ""
+    return (
+        f"angular.z is exactly 0 in {none.sum()} scans, those in which the distance was right within {within:.2f} m, "
+        f"although the heading was wrong by up to {away[none].max():.1f} rad then: the robot leaves that band at an "
+        "angle; correct the heading there, too"
+    )
+
+
+def heeds_heading(point, rates, asked):
+    """Return whether the turning rates depend on the heading, too, as far as that can be seen."""
+    error, away = np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2
+    clear = np.abs(rates) < 0.95 * LIMIT
+    if clear.sum() < FEWEST or rates[clear].var() < 1e-3:
+        return False
+    alone, both = error[clear, None], np.stack([error, away], axis=1)[clear]
+    share = _explained(both, rates[clear])
+    return share > 0.8 and 1 - share < 0.3 * (1 - _explained(alone, rates[clear])) - 1e-6
+
+
+def strong(point, rates, asked):
+    """Return the gain of the distance if that is far too high for the time between two scans; empty if it is not."""
+    error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
+    clear = (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < NEAR)
+    if clear.sum() < FEWEST or error[clear].std() < 0.01:
         return ""
     terms = np.stack([error, away], axis=1)[clear]
     gains = np.linalg.lstsq(np.hstack([terms, np.ones((len(terms), 1))]), rates[clear], rcond=None)[0]
-    if _explained(terms, rates[clear]) < 0.75 or abs(gains[2]) < 0.5 or gains[1] < 0.5:
+    if _explained(terms, rates[clear]) < 0.6 or gains[0] < 7 or gains[0] < 3 * gains[1]:
         return ""
     return (
-        f"angular.z is still about {abs(gains[2]):.1f} rad/s {'towards' if gains[2] > 0 else 'away from'} the wall "
-        "where the distance is right and the wall abeam: the error that it is made of must be 0 there, nearest range "
-        "minus the parameter distance"
+        f"angular.z answers the distance by {gains[0]:.0f} rad/s for each metre of error, and the heading by "
+        f"{max(gains[1], 0.0):.1f} rad/s for each radian: the gain of the distance is far too high, so the robot swings"
     )
 
 

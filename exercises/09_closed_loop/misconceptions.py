@@ -28,6 +28,7 @@ def explain(run):
         other_side,
         lambda run: DRIVING["zero_rays"](run, *scans(run)),
         DRIVING["speed_by_distance"],
+        DRIVING["other_axes"],
         lambda run: DRIVING["silent"](run, scans(run)[0]),
         unchanging,
         one_way,
@@ -35,6 +36,7 @@ def explain(run):
         opposite,
         without_sign,
         deaf,
+        lambda run: LAW["left_alone"](*point_and_rates(run)) if len(scans(run)[0]) else "",
         kept_beside,
         offset,
         gaps,
@@ -50,10 +52,12 @@ def explain(run):
         old_distance,
         wrong_sign,
         wound_up,
+        DRIVING["circles"],
         saturated,
+        lambda run: LAW["strong"](*point_and_rates(run)) if len(scans(run)[0]) else "",
         swings,
-        weak,
-        against_a_wall,
+        DRIVING["weak"],
+        DRIVING["against_a_wall"],
         elsewhere,
         DRIVING["slow"],
     )
@@ -116,11 +120,15 @@ def signs(run):
     return STEERING["signs"](run, times, bearings, ranges) if len(times) else ""
 
 
-def point_and_rates(run):
-    """Return the nearest points of the side in all scans that were answered, the turning rates and the distances."""
+def point_and_rates(run, standing=False):
+    """Return the nearest points of the side in all scans that were answered, the turning rates and the distances.
+
+    Those in which the robot stands, such as against a wall, are left out: they are one scan many times over.
+    """
     times, bearings, ranges = scans(run)
     heard, rates, asked = STEERING["answered"](run, times)
-    return STEERING["measured"](bearings, ranges[heard])["right"], rates, asked
+    point, chosen = STEERING["measured"](bearings, ranges[heard])["right"], moving(run) | standing
+    return point[chosen], rates[chosen], asked[chosen]
 
 
 def unchanging(run):
@@ -129,7 +137,7 @@ def unchanging(run):
     if share > 0.3 and (why := suspect(run.recording, "unit")):
         return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
     said = LAW["unchanging"](run, values)
-    why = suspect(run.recording, "first_kept", "farthest") if said else ""
+    why = suspect(run.recording, "integral", "added", "first_kept", "farthest", "bearing") if said else ""
     return f"{said.partition(':')[0]}: {why}" if why else said
 
 
@@ -140,7 +148,7 @@ def one_way(run):
 def late(run):
     """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
     why = suspect(run.recording, "delay", "farthest")
-    return why or (LAW["late"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else "")
+    return why or (LAW["late"](*point_and_rates(run, standing=True), moving(run)) if len(scans(run)[0]) else "")
 
 
 def moving(run):
@@ -151,7 +159,7 @@ def moving(run):
 
 
 def offset(run):
-    return LAW["offset"](*point_and_rates(run), moving(run)) if len(scans(run)[0]) else ""
+    return LAW["offset"](*point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
 def opposite(run):
@@ -247,7 +255,13 @@ def old_distance(run):
     kept = float(np.median(run.distance[before])) if before.any() else run.asked[0]
     if abs(usual - run.asked[0]) > KEPT or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
         return ""
-    why = suspect(run.recording, "parameter distance", "parameter") or "its new value does not reach what it steers by"
+    why = suspect(run.recording, "parameter distance", "parameter")
+    if not why and len(scans(run)[0]):
+        point, rates, asked = point_and_rates(run)
+        new = asked == run.asked[-1]
+        if not LAW["answers_old"](point[new], rates[new], run.asked[0], run.asked[-1]):
+            return ""
+    why = why or "its new value does not reach what it steers by"
     return (
         f"the robot still keeps {usual:.2f} m, although distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m "
         f"at {run.changed:g} s: {why}"
@@ -290,8 +304,10 @@ def saturated(run):
             f"angular.z was at its limit in {share:.0%} of the commands, and jumped from one limit to the other "
             f"{jumps.sum()} times: the gain is far too high for the time between two scans"
         )
-    why = suspect(run.recording, "integral") or "the gain is far too high"
-    return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
+    left = float((signal.values > 1.45).mean())
+    why = suspect(run.recording, "integral") or (LAW["strong"](*point_and_rates(run)) if len(scans(run)[0]) else "")
+    often = f"to the left in {left:.0%} and to the right in {share - left:.0%} of them"
+    return f"angular.z was at its limit in {share:.0%} of the commands: {why or often}"
 
 
 def integrated(run):
@@ -305,36 +321,12 @@ def swings(run):
     changes = int(np.count_nonzero(np.diff(signs)))
     if changes < 4:
         return ""
-    return (
-        f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m: "
-        "only the distance is fed back, or the gain is too high for the time between two scans"
+    said = (
+        f"the robot swings about the wanted distance, {changes} times, by up to {np.abs(run.error[late]).max():.2f} m"
     )
-
-
-def weak(run):
-    """Find out whether the robot never turns much, however wrong its distance is."""
-    rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
-    late = run.times > 3.0
-    worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
-    if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
-        return ""
-    return (
-        f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
-        "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
-    )
-
-
-def against_a_wall(run):
-    """Find out whether the robot was stopped by a wall."""
-    if not run.touches.any():
-        return ""
-    first = int(np.argmax(run.touches))
-    if run.times[first] > run.times[-1] - 3 or np.abs(run.along[first:]).sum() > 1.0:
-        return ""
-    return (
-        f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: it turned too late or too little, "
-        "as with a gain that is too low, or if the wall ahead is not looked at"
-    )
+    if len(scans(run)[0]) and LAW["heeds_heading"](*point_and_rates(run)):
+        return f"{said}: angular.z answers the distance too strongly, or too late, beside the heading"
+    return f"{said}: only the distance is fed back, or the gain is too high for the time between two scans"
 
 
 def elsewhere(run):

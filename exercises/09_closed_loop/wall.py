@@ -14,6 +14,7 @@ from gz_course.grader.score.check import Finding
 from gz_course.grader.score.suspects import suspect
 from gz_course.grader.score.true_pose import heading
 
+DRIVING = runpy.run_path(str(Path(__file__).with_name("driving.py")))
 SPACING = 0.04  # [m] between two points of a wall
 BEHIND = 0.8 * np.pi  # [rad] bearing beyond which a point does not count as on the side
 TOUCH = 0.004  # [m] between the robot and a wall
@@ -164,11 +165,7 @@ def follows(recording, parameters):
     way, could = float(run.along[near].sum()), float((run.allowed(run.times) * run.step).sum())
     least = parameters["share"] * could
     beside, _ = run.within(APPROACHED, run.times[-1], WIDE)
-    if (
-        way < least
-        and beside > 0.85
-        and (why := runpy.run_path(str(Path(__file__).with_name("driving.py")))["slow"](run))
-    ):
+    if way < least and beside > 0.85 and (why := DRIVING["slow"](run)):
         said = f"{way:.1f} m; with speed_limit = {run.limit:g} m/s it could be {could:.1f} m"
         return Finding(False, f"at least {least:.1f} m forward along the wall on the {run.side}", said, explanation=why)
     return _finding(
@@ -209,7 +206,7 @@ def keeps_limits(recording, parameters):
                 f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: "
                 f"{suspect(recording, 'parameter speed_limit', 'parameter') or 'the old limit still counts'}"
                 if old
-                else suspect(recording, *(["limit"] if name == "angular/z" else []))
+                else (DRIVING["speed_by_distance"](run) if name == "linear/x" else suspect(recording, "limit"))
                 or limits_missed(name.replace("/", "."), signal.values, low, high)
             )
             return Finding(False, expected, seen, round(float(at), 2), explanation=why)

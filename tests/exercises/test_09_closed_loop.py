@@ -117,7 +117,7 @@ def test_the_law_of_a_right_follower_has_nothing_wrong(seen):
     rates = np.clip(4 * error + 2 * away, -1.5, 1.5)
     assert LAW["late"](point, rates, asked) == LAW["deaf"](point, rates, asked) == ""
     assert LAW["without_sign"](point, rates, asked) == LAW["opposite"](run(seen[0], rates), point, rates, asked) == ""
-    assert LAW["unchanging"](run([0.0], rates), rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
+    assert LAW["unchanging"](run(seen[0], rates), rates) == "" and LAW["agrees"](point, rates, asked) > 0.9
 
 
 def test_wrong_laws_are_named(seen):
@@ -134,11 +134,18 @@ def test_wrong_laws_are_named(seen):
     assert LAW["unchanging"](beside, right) == ""
     assert "is at its limit, 1.50 rad/s" in LAW["unchanging"](beside, 0 * right + 1.5)
     assert "in nearly every command" in LAW["unchanging"](beside, 0 * right + 0.4)
-    moving = np.ones(SCANS, bool)
-    assert LAW["offset"](point, right, asked, moving) == LAW["one_way"](beside, point, right, asked) == ""
-    assert "still about 0.8 rad/s towards the wall" in LAW["offset"](point, right + 0.8, asked, moving)
+    assert LAW["offset"](point, right, asked) == LAW["one_way"](beside, point, right, asked) == ""
+    assert "still about 0.8 rad/s towards the wall" in LAW["offset"](point, right + 0.8, asked)
+    assert LAW["strong"](point, right, asked) == ""
+    assert "by 9 rad/s for each metre" in LAW["strong"](point, np.clip(9 * error + 1 * away, -1.5, 1.5), asked)
+    assert LAW["left_alone"](point, right, asked) == "" and LAW["heeds_heading"](point, right, asked)
+    band = np.where(np.abs(point[:, 0] - asked) < 0.1, 0.0, right)
+    assert "right within 0.1" in LAW["left_alone"](point, band, asked)
+    assert not LAW["heeds_heading"](point, 4 * error, asked)
+    assert LAW["answers_old"](point, 4 * error + 2 * away, 0.6, 0.9)
+    assert not LAW["answers_old"](point, 4 * error + 2 * away, 0.9, 0.6)
     assert "to the left only" in LAW["one_way"](beside, point, np.abs(right), asked)
-    assert LAW["late"](point, smooth, asked, ~moving) == ""
+    assert LAW["late"](point, smooth, asked, np.zeros(SCANS, bool)) == ""
 
 
 @pytest.mark.parametrize(
@@ -223,3 +230,20 @@ def test_a_node_that_is_silent_while_all_is_right_is_named():
     assert "no command came for" in DRIVING["silent"](run, run.times)
     run.recording.signal = lambda name: signal
     assert DRIVING["silent"](run, run.times) == ""
+
+
+def test_a_rate_about_another_axis_is_named():
+    run = driven(0.0, 0.4, 0.6)
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    run.recording.signal = lambda name: Signal(signal.times, signal.values * (name[-1] == "x"))
+    assert "angular.x is up to 0.40" in DRIVING["other_axes"](run)
+    run.recording.signal = lambda name: Signal(signal.times, signal.values * (name.endswith(("linear/x", "z"))))
+    assert DRIVING["other_axes"](run) == ""
+
+
+def test_circles_are_named():
+    run = driven(1.2, 0.4, 1.3)
+    run.turning = np.full(300, 1.2)
+    assert "in circles, 5.7 of them: angular.z always turns it to the left" in DRIVING["circles"](run)
+    run.turning = np.where(np.arange(300) % 50 < 25, 1.2, -1.2)
+    assert DRIVING["circles"](run) == ""

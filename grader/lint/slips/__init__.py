@@ -28,6 +28,7 @@ from gz_course.grader.lint.slips import (
     not_what_they_seem,
     parameters,
     publishers,
+    rates,
     resets,
     results,
     rotations,
@@ -59,6 +60,7 @@ ROOMS = (
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
     endless_spins.LOOKS,
+    rates.LOOKS,
 )  # fmt: skip
 
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from gz_course.grader.lint.ros_parameters import ASKS, declared, listeners, members, objects, owners, reads
-from gz_course.grader.lint.syntax import Place, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
 from gz_course.sim.did_you_mean import nearest_name
 
 RESULT = "SetParametersResult"
@@ -150,6 +150,55 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
                     )
 
 
+def whole_numbers_of_doubles(tree: ast.AST) -> Iterator[Place]:
+    """Find `int(self.get_parameter('distance').value)` of a parameter whose default is not a whole number."""
+    values = _values(tree, float)
+    for call, name in calls(tree):
+        given = ast.unparse(call.args[0]) if name in ("int", "round") and len(call.args) == 1 else ""
+        default = values.get(given)
+        if isinstance(default, float) and default != int(default):
+            cut = int(default) if name == "int" else round(default)
+            yield (
+                call.lineno,
+                f"{ast.unparse(call)[:60]} makes a whole number of a parameter, {cut} of {default:g}: leave the "
+                "value as it is",
+            )
+
+
+def texts_for_truth(tree: ast.AST) -> Iterator[Place]:
+    """Find `1 if side else -1` where side is a text, which counts as true whatever it says."""
+    values = _values(tree, str)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.If | ast.IfExp | ast.While):
+            continue
+        test = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
+        default = values.get(ast.unparse(test))
+        if default:
+            yield (
+                node.test.lineno,
+                f"{ast.unparse(test)[:60]} is a text and counts as true whatever it says: compare it, == {default!r}",
+            )
+
+
+def _values(tree: ast.AST, kind: type) -> dict[str, object]:
+    """Return the default of each parameter of a type, by the expressions and names that hold the value."""
+    found: dict[str, object] = {}
+    asked = {id(call): name for call, name in reads(tree)}
+    defaults = {
+        name: default.value
+        for name, (_, default) in (declared(tree) or {}).items()
+        if isinstance(default, ast.Constant) and type(default.value) is kind
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and node.attr == "value" and asked.get(id(node.value), "") in defaults:
+            found[ast.unparse(node)] = defaults[asked[id(node.value)]]
+    held: dict[str, list[object]] = {}
+    for target, value in assigned(tree):
+        held.setdefault(ast.unparse(target), []).append(found.get(ast.unparse(value)))
+    found.update({name: given[0] for name, given in held.items() if given[0] is not None and None not in given})
+    return found
+
+
 def other_spelling(tree: ast.AST) -> Iterator[Place]:
     """Find `side == 'Left'` where the value of the parameter is 'left', and nothing changes capitals."""
     values = {
@@ -214,6 +263,14 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
             and re.match(r"\w+", ast.unparse(node.value))[0] in single | whole  # type: ignore[index]
         ]  # fmt: skip
         code = ast.unparse(function)
+        seen: dict[str, ast.Assign] = {}
+        for node in takes:
+            if (first := seen.setdefault(ast.unparse(node.targets[0]), node)) is not node and ".name" in code:
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]} puts the value of another parameter into what line {first.lineno} "
+                    "sets: each parameter needs an attribute of its own",
+                )
         if takes and len(known) > 1 and ".name" not in code and "continue" not in code:
             yield takes[0].lineno, _any(ast.unparse(takes[0]), sorted(known))
             continue
@@ -278,5 +335,5 @@ def declared_otherwise(tree: ast.AST, names: Sequence[str]) -> Iterator[Place]:
 
 LOOKS = (
     callbacks_without_result, results_that_refuse, callbacks_that_nobody_calls, objects_for_values, objects_for_names,
-    fields_of_another_type, other_spelling, read_as_it_was, whatever_is_set,
+    fields_of_another_type, whole_numbers_of_doubles, texts_for_truth, other_spelling, read_as_it_was, whatever_is_set,
 )  # fmt: skip

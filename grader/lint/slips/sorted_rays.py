@@ -115,7 +115,8 @@ def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[
 def places_in_masked(tree: ast.AST) -> Iterator[Place]:
     """Find `angles[np.argmin(ranges[valid])]`: the place counts in what is left, and angles has all rays."""
     for function in functions(tree):
-        masked, found = {}, {}
+        masked: dict[str, str] = {}
+        found: dict[str, tuple[str, str]] = {}
         for node in ast.walk(function):
             if isinstance(node, ast.Assign) and len(node.targets) == 1:
                 name, value = ast.unparse(node.targets[0]), node.value

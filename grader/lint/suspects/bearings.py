@@ -32,6 +32,14 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
         for side in (node.left, node.right)
     } | {ast.unparse(node.target) for node in ast.walk(tree) if isinstance(node, ast.AugAssign)}
     for node in ast.walk(tree):
+        if (by_hand := _degree_for_each_ray(node, numbers)) and not _shifted(node, parent, summed):
+            yield (
+                by_hand,
+                "bearing",
+                f"{ast.unparse(node)[:60]} takes the number of a ray for its bearing in degrees, counted from ahead: "
+                "ray 0 looks to angle_min, and ray i to angle_min + i * angle_increment",
+            )
+            return
         if not isinstance(node, ast.BinOp):
             continue
         left, right = ast.unparse(node.left), ast.unparse(node.right)
@@ -47,6 +55,17 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
             f"{ast.unparse(node)[:60]} counts from ray 0 as if it looked straight ahead: it looks to angle_min, and "
             "ray i to angle_min + i * angle_increment",
         )
+
+
+def _degree_for_each_ray(node: ast.AST, numbers: set[str]) -> int:
+    """Return the line of `i * pi / 180` or `radians(i)` where i counts rays; 0 for anything else."""
+    match node:
+        case ast.Call(args=[ast.Name(id=name)]) if ast.unparse(node.func).rpartition(".")[2] in ("radians", "deg2rad"):
+            return node.lineno if name in numbers else 0
+        case ast.BinOp():
+            found = re.fullmatch(r"(\w+) \* \(?(?:\w+\.)?pi / 180(?:\.0)?\)?", ast.unparse(node))
+            return node.lineno if found and found[1] in numbers else 0
+    return 0
 
 
 def _is_step(text: str, steps: set[str]) -> bool:

@@ -6,9 +6,11 @@ import ast
 import re
 from collections.abc import Iterator
 
+from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name
 
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
+PER_DEGREE = 0.1  # [rad/s] a gain below it may well be meant for degrees
 SINES = frozenset({"cos", "sin", "tan"})
 TO_DEGREES = frozenset({"degrees", "rad2deg"})
 TO_RADIANS = frozenset({"radians", "deg2rad"})
@@ -104,11 +106,25 @@ def _to_radians(value: ast.AST) -> bool:
 def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angular.z that is assigned degrees."""
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    known = named_numbers(tree)
     for target, value in assigned(tree):
-        parts = {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
+        parts = {ast.unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
         wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
         if wrong and ast.unparse(target).endswith("angular.z"):
             yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
+
+
+def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
+    """Yield the nodes that make the size of a value: not those of comparisons, nor what has a gain per degree."""
+    if isinstance(value, ast.Compare):
+        return
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult):
+        gains = [each for side in (value.left, value.right) if (each := number(side, known)) is not None]
+        if any(abs(each) < PER_DEGREE for each in gains):
+            return
+    yield value
+    for child in ast.iter_child_nodes(value):
+        yield from _counting(child, known)
 
 
 def sine_first(tree: ast.AST) -> Iterator[Suspect]:

@@ -31,14 +31,19 @@ def stale(tree: ast.Module) -> Iterator[Suspect]:
         return
     inside, start, heard = owners(tree), only_at_the_start(tree), listeners(tree)
     found = list(reads(tree))
-    if any(not name for _, name in found):
-        return  # a name is not written as a text, so it may be any of them
+    unnamed = [call for call, name in found if not name]  # which may read any of them
+    if unnamed:
+        if not heard and all(inside[id(call)] in start - {MODULE} for call, _ in found):
+            once = f"{ast.unparse(unnamed[0])[:60]} is read only once, in {inside[id(unnamed[0])]}"
+            words = f"{once}; read parameters in each callback of a scan"
+            yield from ((unnamed[0].lineno, f"parameter {name}", words) for name in known)
+        return
     for name, (line, default) in known.items():
         where = [(call, inside[id(call)]) for call, other in found if other == name]
         later = [call for call, function in where if function not in start]
         said = (
             _sets_back(tree, name, inside, start)
-            or next(filter(None, (_not_heard(each, name, default) for each in heard if not later)), None)
+            or next(filter(None, (_not_heard(tree, each, name, default) for each in heard if not later)), None)
             or _only_while_none(tree, later)
             or _kept(tree, name, inside, start)
         )
@@ -107,7 +112,9 @@ def _sets_back(tree: ast.AST, name: str, inside: dict[int, str], start: set[str]
     return None
 
 
-def _not_heard(function: ast.FunctionDef, name: str, default: ast.expr | None) -> tuple[int, str] | None:
+def _not_heard(
+    tree: ast.Module, function: ast.FunctionDef, name: str, default: ast.expr | None
+) -> tuple[int, str] | None:
     """Find a callback for changes that passes over a parameter."""
     single = members(function)
     asked: set[str] = set()
@@ -118,6 +125,12 @@ def _not_heard(function: ast.FunctionDef, name: str, default: ast.expr | None) -
     if asked and name not in asked and name not in code and "else" not in code and single:
         shown = ", ".join(sorted(asked))
         return function.lineno, f"{function.name}() asks for {shown} alone, so a new {name} is passed over"
+    for test in (each for each in ast.walk(function) if isinstance(each, ast.If)):
+        if any(isinstance(each, ast.Constant) and each.value == name for each in ast.walk(test.test)):
+            for target, value in assigned(ast.Module(test.body, [])):
+                kept = ast.unparse(target)
+                if kept.startswith("self.") and ast.unparse(value).endswith(".value") and not _is_read(tree, kept):
+                    return value.lineno, f"{kept} keeps the new value of {name}, and nothing reads {kept} later"
     kind = TYPES.get(type(default.value)) if isinstance(default, ast.Constant) else None
     for test in (each for each in ast.walk(function) if isinstance(each, ast.If)):
         about = {str(each.value) for each in ast.walk(test.test) if isinstance(each, ast.Constant)}
@@ -128,6 +141,15 @@ def _not_heard(function: ast.FunctionDef, name: str, default: ast.expr | None) -
                 f"as a {kind}, so its new value is passed over"
             )
     return None
+
+
+def _is_read(tree: ast.AST, kept: str) -> bool:
+    """Return whether an attribute of self is read anywhere, also under the name of another object."""
+    attribute = kept.rpartition(".")[2]
+    return any(
+        isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr == attribute
+        for node in ast.walk(tree)
+    )
 
 
 def _only_while_none(tree: ast.AST, later: list[ast.Call]) -> tuple[int, str] | None:

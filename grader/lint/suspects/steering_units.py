@@ -162,9 +162,8 @@ def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.ex
     for target, value in assigned(function):
         if ast.unparse(target).endswith("angular.z"):
             parts = list(ast.walk(value))
-            parts += [
-                each for name in parts if ast.unparse(name) in values for each in ast.walk(values[ast.unparse(name)])
-            ]  # type: ignore[arg-type]
+            names = [ast.unparse(each) for each in parts if isinstance(each, ast.Name | ast.Attribute)]
+            parts += [each for name in names if name in values for each in ast.walk(values[name])]
             limits = any(
                 isinstance(each, ast.Call)
                 and last_name(each.func) in ("clip", "min", "max")
@@ -208,6 +207,26 @@ def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
                 )
 
 
+def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
+    """Find int(r) and round(r) of a range: what is left are whole metres."""
+    if not _steers(tree):
+        return
+    for function in functions(tree):
+        single = {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
+        for loop in (each for each in ast.walk(function) if isinstance(each, ast.For | ast.comprehension)):
+            last = loop.target.elts[-1] if isinstance(loop.target, ast.Tuple) else loop.target
+            if ".ranges" in ast.unparse(loop.iter) and "range(" not in ast.unparse(loop.iter):
+                single.add(ast.unparse(last))
+        for call, name in calls(function):
+            given = ast.unparse(call.args[0]) if len(call.args) == 1 else ""
+            if name in ("int", "round") and (given in single or ".ranges[" in given.partition("(")[0]):
+                yield (
+                    call.lineno,
+                    "farthest",
+                    f"{ast.unparse(call)[:60]} makes whole metres of a range: leave it as it is",
+                )
+
+
 def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
     """Find a ray that hits nothing, or is not valid, that counts as 0 m."""
     if not _steers(tree):
@@ -245,4 +264,4 @@ def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
             return
 
 
-LOOKS = (degrees_in_gains, centimetres, gains_behind_limits, least_tuples, zero_for_nothing)
+LOOKS = (degrees_in_gains, centimetres, gains_behind_limits, least_tuples, whole_metres, zero_for_nothing)

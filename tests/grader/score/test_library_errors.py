@@ -48,6 +48,9 @@ def test_a_mistake_with_arrays_is_explained(mistake, words):
         ("ParameterNotDeclaredException: Invalid access to undeclared parameter(s): side", "declare_parameter('side'"),
         ("ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']", "from the start"),
         ("ParameterAlreadyDeclaredException: Parameter(s) already declared: ['side']", "declared once"),
+        ("AttributeError: 'ParameterValue' object has no attribute 'value'", "one field for each type"),
+        ("TypeError: SetParametersResult.__init__() takes 1 positional argument but 2 were given", "by name"),
+        ("TypeError: list indices must be integers or slices, not str", "have numbers, not names"),
         (
             "InvalidParameterTypeException: Trying to set parameter 'distance' to '0.6' of type 'DOUBLE', expecting "
             "type 'INTEGER': distance",

@@ -28,3 +28,9 @@ def test_the_first_parameter_that_was_not_set_is_named(outcome, reason, nodes, s
 
 def test_nothing_is_said_where_nothing_was_refused():
     assert parameter_not_set(None, {}) == parameter_not_set(None, {"parameters_set": [FACT | {"outcome": "set"}]}) == ""
+
+
+def test_a_result_that_refuses_is_named_with_its_line():
+    slip = {"file": "driver.py", "line": 7, "said": "SetParametersResult() refuses the new value"}
+    facts = {"nodes": ["/driver"], "parameters_set": [FACT | {"outcome": "refused"}], "slips": [slip]}
+    assert "without a reason: line 7: SetParametersResult() refuses" in parameter_not_set(None, facts)

@@ -99,6 +99,14 @@ MEANINGS = (
         "get_parameter_value() has one field for each type, such as .double_value; .value of the parameter is simpler",
     ),
     (
+        re.compile(r"AttributeError: 'ParameterValue' object has no attribute '\w+'"),
+        "get_parameter_value() has one field for each type, such as .double_value; .value of the parameter is simpler",
+    ),
+    (
+        re.compile(r"TypeError: SetParametersResult\.__init__\(\) takes 1 positional"),
+        "the fields of a message are given by name: SetParametersResult(successful=True)",
+    ),
+    (
         re.compile(r"ParameterNotDeclaredException: Invalid access to undeclared parameter\(s\): (\w+)"),
         "declare_parameter('{0}', DEFAULT) must have been called before, in __init__, with the same name",
     ),

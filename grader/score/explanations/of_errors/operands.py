@@ -131,6 +131,11 @@ def lists(error: str, code: str) -> str:
         return ""
     if re.search(r"(?:list|tuple) indices must be integers or slices, not tuple", error):
         return "a list of lists is indexed grid[row][column]; grid[row, column] needs an array of NumPy"
+    if re.search(r"(?:list|tuple) indices must be integers or slices, not str", error):
+        return (
+            "the items of a list have numbers, not names: one that is found by its name is found by going through the "
+            "list, for each in ...: if each.name == ..."
+        )
     if re.search(r"(?:array|list|tuple|string) ind(?:ices|exes) must be integers|only integers, slices", error):
         return (
             "an index is a whole number, and / always gives a float: // divides without a remainder, int() rounds off"

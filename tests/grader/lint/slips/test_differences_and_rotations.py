@@ -58,6 +58,25 @@ def test_a_difference_that_is_always_0(early):
     assert words.startswith("now - self.last is always 0, because line ")
 
 
+def test_a_difference_in_a_function_that_is_passed_the_value_is_always_0():
+    change = """
+class Node:
+    def on_scan(self, scan):
+        error = scan.near - 1
+        {}
+        self.turn(self.rate({}))
+        self.last = error
+
+    def rate(self, e):
+        return self.last - e
+"""
+    (place,) = slips(change.format("self.last = error", "error").encode())
+    assert "self.last - e is always 0, because line 5 has made self.last the same as e" in place["said"]
+    assert (
+        slips(change.format("pass", "error").encode()) == slips(change.format("self.last = error", "2").encode()) == []
+    )
+
+
 @pytest.mark.parametrize(
     "rotation",
     [

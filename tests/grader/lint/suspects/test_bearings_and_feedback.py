@@ -13,6 +13,12 @@ WRONG = {
         "step = scan.angle_increment", "rays = [(r, i * step) for i, r in enumerate(scan.ranges) if r < 9]"
     ),
     "1.57 / scan.angle_increment counts from ray 0": ("left = scan.ranges[int(1.57 / scan.angle_increment)]",),
+    "i * math.pi / 180 takes the number of a ray for its bearing": (
+        "for i, r in enumerate(scan.ranges):", "    b = i * math.pi / 180"
+    ),
+    "math.radians(i) takes the number of a ray for its bearing": (
+        "for i in range(len(scan.ranges)):", "    b = math.radians(i)"
+    ),
     "the 90 of ABEAM are degrees, and b is in radians": (
         "ABEAM = 90.0", "b = scan.angle_min", "b += scan.angle_increment", "away = b - ABEAM"
     ),
@@ -32,6 +38,7 @@ WRONG = {
     "keeps a Parameter, which is a copy": ("self.distance = self.get_parameter('distance')",),
 }  # fmt: skip
 HARMLESS = [
+    ("for i, r in enumerate(scan.ranges):", "    b = math.radians(i) - math.pi"),
     ("for i, r in enumerate(scan.ranges):", "    b = scan.angle_min + i * scan.angle_increment"),
     ("for i, r in enumerate(scan.ranges):", "    b = i * scan.angle_increment - math.pi"),
     ("for i, r in enumerate(scan.ranges):", "    b = i * scan.angle_increment", "    b -= math.pi"),
