@@ -9,6 +9,7 @@ from gz_course.grader.score.suspects import suspect
 MOVED = 0.25  # [m] from the start of a patrol: then its direction is known
 STRAIGHT = 0.15  # [rad]
 SOON = 0.6  # [s] after a second goal was accepted: who ends the patrol then ends it because of that goal
+GOES = 0.03  # [m/s] a robot that is slower stands
 THERE = 0.17  # [m] from a waypoint
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 HEADED = {
@@ -26,6 +27,10 @@ def spoilt(run):
         return ""
     if found is not None and found["at"] < taken["at"] + SOON and run.nearest("patrol", found["at"])[0] == 0:
         return f"the patrol under way ended as {found['status']} {max(0.0, found['at'] - taken['at']):.2f} s later"
+    before = run.linear.values[(run.times > taken["at"] - SOON) & (run.times <= taken["at"])]
+    after = run.linear.values[(run.times > taken["at"] + SOON) & (run.times <= run.period("patrol")[1])]
+    if before.max(initial=0.0) > GOES and len(after) and np.abs(after).max() < GOES:
+        return "the robot stopped then, and the patrol under way went no further"
     return "the robot left the patrol under way for its waypoint" if follows(run, taken["at"]) else ""
 
 

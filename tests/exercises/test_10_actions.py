@@ -305,6 +305,11 @@ def test_a_second_goal_to_which_the_robot_turns():
     assert "was rejected, but the robot drives to its waypoint" in found("visits", refused).explanation
 
 
+def test_a_second_goal_that_stops_the_robot():
+    patrol = with_a_second(Patrol([[0.4, 0.0]], status=""), "accepted", at=1.9)
+    assert "the robot stopped then" in found("busy", patrol).explanation and found("visits", patrol).gated
+
+
 def test_a_rejected_goal_whose_speed_is_taken():
     patrol = with_a_second(Patrol(), "rejected")
     assert found("speed", patrol).passed
