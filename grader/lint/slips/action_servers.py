@@ -54,7 +54,14 @@ def answers(tree: ast.AST) -> Iterator[Place]:
         if role not in ANSWERS:
             continue
         returned, kind = _returned(function), ANSWERS[role]
-        wrong = [each for each in returned if each is None or isinstance(each, ast.Constant | ast.Compare | ast.BoolOp)]
+        others = set(ANSWERS.values()) - {kind}
+        wrong = [
+            each
+            for each in returned
+            if each is None
+            or isinstance(each, ast.Constant | ast.Compare | ast.BoolOp)
+            or (isinstance(each, ast.Attribute) and last_name(each.value) in others)
+        ]
         if wrong or not returned:
             what = ast.unparse(wrong[0]) if wrong and wrong[0] is not None else "nothing"
             yield (

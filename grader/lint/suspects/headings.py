@@ -193,5 +193,6 @@ def _of_quaternion(node: ast.AST) -> bool:
 
 
 LOOKS = (
-    headings_in_degrees, quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first, degrees_beside_radians, differences,
+    headings_in_degrees, quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first,
+    degrees_beside_radians, differences,
 )  # fmt: skip
