@@ -63,7 +63,7 @@ def wrong_bearing(run, chosen, points):
     if shares[best] > 0.85:
         return f"Your server drives as if the waypoint were ahead where it is not: {best}"
     aside = np.abs(error) > ASIDE
-    if aside.mean() > 0.5 and np.mean(np.sign(rate[aside]) == np.sign(error[aside])) > 0.9:
+    if aside.mean() > 0.5 and np.mean(np.sign(rate[aside]) == np.sign(error[aside])) > 0.8:
         off = np.degrees(np.median(np.abs(error)))
         return (
             f"The robot turns to the correct side, but drives on although the waypoint is {off:.0f} degrees beside its "
