@@ -12,6 +12,7 @@ BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearin
 LONG = 4.0  # [s] without a new command
 MOVED = 0.1  # [m] a robot that moved less stood
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
+STAYS = 0.4  # [m] from the last place
 SAME = 0.1  # of a speed, to be called the same
 
 
@@ -76,7 +77,8 @@ def other_places(way, points):
         "waypoints are taken for millimetres; they are in metres": points / 1000,
     }
     for words, places in candidates.items():
-        if not np.allclose(places, points) and _reaches(way, places):
+        stays = np.hypot(*(way[-1] - places[-1])) < STAYS  # who drives on does not take that place for the last one
+        if stays and not np.allclose(places, points) and _reaches(way, places):
             return words
     return ""
 
@@ -230,6 +232,16 @@ def drives_on(run, speeds):
         return 0.0
     after = (run.times >= found["at"] + 0.3) & (run.times <= following["at"])
     return float(np.abs(speeds[after]).max(initial=0.0))
+
+
+def bearing_of(run, goal):
+    """Return by which wrong angle the robot steers in a patrol after the first one; empty if none fits."""
+    if run.one("accepted", goal) is None:
+        return ""
+    start, end = run.period(goal)
+    chosen = (run.times >= start) & (run.times <= end)
+    said = suspect(run.recording, "heading", "angle")
+    return said or BEARINGS.wrong_bearing(run, chosen, np.array(run.waypoints(goal), dtype=float))
 
 
 def obeys(run, since, until):

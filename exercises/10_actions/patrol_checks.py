@@ -341,7 +341,7 @@ def busy(recording, parameters):
     found = run.one("result", "again")
     if found is None:
         measured = "the patrol after the cancelled one did not end"
-        why = still_driving(run, "again") or LATER.of_a_later_goal(run)
+        why = still_driving(run, "again") or LATER.of_a_later_goal(run) or MISCONCEPTIONS.bearing_of(run, "again")
         return Finding(False, expected, measured, run.end, explanation=why)
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"
