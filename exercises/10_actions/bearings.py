@@ -7,6 +7,7 @@ FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead
 FEWEST = 20  # samples of a robot that drives
 TURNS = 0.02  # [rad/s] a robot that turns less steers by no angle
 REACHED = 0.17  # [m]
+ENOUGH = 2.0  # [m] of the way, before the robot comes to a wall
 HALF_A_SECOND = 10  # samples
 ASIDE = 0.8  # [rad]
 RIGHT = "the heading is 2 * atan2(orientation.z, orientation.w), in radians"
@@ -49,7 +50,11 @@ def wrong_bearing(run, chosen, points):
     """Return by which wrong angle the server faces a waypoint that the robot misses; empty if none fits its way."""
     way, yaw, speed, rate = (each[chosen] for each in (run.way, run.heading, run.linear.values, run.angular.values))
     missed, after = _missed(way, points)
-    part = slice(after, _blocked(way))
+    there = missed - way[after:]
+    if words := _turned_past(_wrapped(np.arctan2(there[:, 1], there[:, 0]) - yaw[after:]), speed[after:]):
+        return words
+    driven = np.cumsum(np.hypot(*np.diff(way[after:], axis=0, prepend=way[after : after + 1]).T))
+    part = slice(after, min(_blocked(way), after + int(np.sum(driven < ENOUGH))))
     way, yaw, speed, rate = way[part], yaw[part], speed[part], rate[part]
     driving, beside = speed > DRIVES, missed - way
     if driving.sum() < FEWEST or np.abs(rate).max() < TURNS:
@@ -74,6 +79,19 @@ def wrong_bearing(run, chosen, points):
             "heading, so it circles: let it drive only while the angle to turn by is small"
         )
     return ""
+
+
+def _turned_past(error, speed):
+    """Find out whether a robot turns on over the direction of the waypoint and does not drive there."""
+    ahead = np.flatnonzero(np.abs(error) < 0.1)
+    if not len(ahead) or (speed[ahead[0] :] > DRIVES).any() or (np.abs(error[: ahead[0]]) < ASIDE / 2).all():
+        return ""
+    if np.abs(error[ahead[0] :]).max() < ASIDE / 2:
+        return ""
+    return (
+        "The robot turned past the waypoint, which was ahead of it, and did not drive: its heading, or the direction "
+        "to the waypoint, atan2(dy, dx), is wrong"
+    )
 
 
 def _blocked(way):

@@ -325,6 +325,15 @@ def test_a_heading_in_degrees():
     assert "its heading is in degrees" in found("visits", patrol).explanation
 
 
+def test_a_robot_that_turns_past_the_waypoint():
+    patrol = Patrol([[1.2, 0.0]], status="")
+    after = np.arange(20) * 0.15
+    patrol.signals["truth/robot/yaw"] = np.r_[patrol.signals["truth/robot/yaw"][:-20], after]
+    patrol.signals["truth/robot/linear_x"] = np.where(patrol.times < patrol.end - 0.5, 0.4, 0.0)
+    patrol.signals["truth/robot/angular_z"] = np.where(patrol.times < patrol.end, 0.0, 3.0)
+    assert "turned past the waypoint" in found("visits", patrol).explanation
+
+
 def test_a_robot_that_circles_around_the_waypoint():
     patrol = Patrol([[1.2, 0.0], [3.2, 0.0]], status="")
     patrol.signals["truth/robot/angular_z"] = 0.3 + 0 * patrol.times
