@@ -98,7 +98,7 @@ def test_a_flag_of_cancellations_that_stays_is_named_with_the_error(record):
     )
     facts = {"suspects": [{"line": 5, "about": "anew", "said": "self.cancelled stays so"}]}
     assert "What that means: line 5: self.cancelled stays so" in execute_raised(
-        record(facts, lines=told, submission="node.py"), facts
+        record({}, facts=facts, lines=told, submission="node.py"), facts
     )
     assert "is for a goal that the client wants to cancel" in execute_raised(
         record({}, lines=told, submission="node.py"), {}
