@@ -31,17 +31,17 @@ def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
 
 def values_of_another_type(tree: ast.AST) -> Iterator[Place]:
     """Find `get_parameter('x').get_parameter_value().double_value` of a parameter that was declared as no float."""
-    declared = {
-        call.args[0].value: call.args[1].value
-        for call, name in calls(tree)
-        if name == "declare_parameter" and len(call.args) == 2 and all(isinstance(e, ast.Constant) for e in call.args)
-    }
+    declared = {}
+    for call, called in calls(tree):
+        match call.args:
+            case [ast.Constant(value=str(name)), ast.Constant(value=default)] if called == "declare_parameter":
+                declared[name] = default
     for node in ast.walk(tree):
         match node:
             case ast.Attribute(
                 value=ast.Call(
                     func=ast.Attribute(
-                        value=ast.Call(func=ast.Attribute(attr="get_parameter"), args=[ast.Constant(value=name)]),
+                        value=ast.Call(func=ast.Attribute(attr="get_parameter"), args=[ast.Constant(value=str(name))]),
                         attr="get_parameter_value",
                     )
                 ),
