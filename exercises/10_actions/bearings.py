@@ -7,6 +7,8 @@ FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead
 FEWEST = 20  # samples of a robot that drives
 TURNS = 0.02  # [rad/s] a robot that turns less steers by no angle
 REACHED = 0.17  # [m]
+ENOUGH = 2.0  # [m] of the way, before the robot comes to a wall
+HALF_A_SECOND = 10  # samples
 ASIDE = 0.8  # [rad]
 RIGHT = "the heading is 2 * atan2(orientation.z, orientation.w), in radians"
 HEADINGS = {
@@ -48,23 +50,30 @@ def wrong_bearing(run, chosen, points):
     """Return by which wrong angle the server faces a waypoint that the robot misses; empty if none fits its way."""
     way, yaw, speed, rate = (each[chosen] for each in (run.way, run.heading, run.linear.values, run.angular.values))
     missed, after = _missed(way, points)
-    driving = np.arange(len(way)) >= after
-    driving &= speed > DRIVES
-    if driving.sum() < FEWEST:
+    there = missed - way[after:]
+    if words := _turned_past(_wrapped(np.arctan2(there[:, 1], there[:, 0]) - yaw[after:]), speed[after:]):
+        return words
+    driven = np.cumsum(np.hypot(*np.diff(way[after:], axis=0, prepend=way[after : after + 1]).T))
+    part = slice(after, min(_blocked(way), after + int(np.sum(driven < ENOUGH))))
+    way, yaw, speed, rate = way[part], yaw[part], speed[part], rate[part]
+    driving, beside = speed > DRIVES, missed - way
+    if driving.sum() < FEWEST or np.abs(rate).max() < TURNS:
         return ""
-    beside, yaw, rate = missed - way[driving], yaw[driving], rate[driving]
     direction = np.arctan2(beside[:, 1], beside[:, 0])
     error = _wrapped(direction - yaw)
-    if np.abs(rate).max() < TURNS or np.mean(np.abs(error) < FACES) > 0.5:
+    if np.mean(np.abs(error[driving]) < FACES) > 0.5:
         return ""
-    shares = {words: _share(direction - taken(yaw)) for words, taken in HEADINGS.items()}
-    shares |= {words: _share(taken(beside, missed) - yaw) for words, taken in DIRECTIONS.items()}
-    best = max(shares, key=shares.__getitem__)
-    if shares[best] > 0.85:
-        return f"Your server drives as if the waypoint were ahead where it is not: {best}"
-    aside = np.abs(error) > ASIDE
-    if aside.mean() > 0.5 and np.mean(np.sign(rate[aside]) == np.sign(error[aside])) > 0.9:
-        off = np.degrees(np.median(np.abs(error)))
+    errors = {words: _wrapped(direction - taken(yaw)) for words, taken in HEADINGS.items()}
+    errors |= {words: _wrapped(taken(beside, missed) - yaw) for words, taken in DIRECTIONS.items()}
+    fits = {words: _fit(each, driving, rate) for words, each in errors.items()}
+    first, second = sorted(fits, key=fits.__getitem__)[:-3:-1]
+    off = np.degrees(np.median(np.abs(error[driving])))
+    if fits[first] > 0.85:
+        sure = fits[first] - fits[second] > 0.1
+        why = first if sure else "its heading, or the direction to the waypoint, atan2(dy, dx), is wrong"
+        return f"Your server drives as if the waypoint were ahead, and it is {off:.0f} degrees beside: {why}"
+    aside = driving & (np.abs(error) > ASIDE)
+    if aside.sum() > 0.5 * driving.sum() and np.mean(np.sign(rate[aside]) == np.sign(error[aside])) > 0.8:
         return (
             f"The robot turns to the correct side, but drives on although the waypoint is {off:.0f} degrees beside its "
             "heading, so it circles: let it drive only while the angle to turn by is small"
@@ -72,5 +81,35 @@ def wrong_bearing(run, chosen, points):
     return ""
 
 
-def _share(error):
-    return float(np.mean(np.abs(_wrapped(error)) < FACES))
+def _turned_past(error, speed):
+    """Find out whether a robot turns on over the direction of the waypoint and does not drive there."""
+    ahead = np.flatnonzero(np.abs(error) < 0.1)
+    if not len(ahead) or (speed[ahead[0] :] > DRIVES).any() or (np.abs(error[: ahead[0]]) < ASIDE / 2).all():
+        return ""
+    if np.abs(error[ahead[0] :]).max() < ASIDE / 2:
+        return ""
+    return (
+        "The robot turned past the waypoint, which was ahead of it, and did not drive: its heading, or the direction "
+        "to the waypoint, atan2(dy, dx), is wrong"
+    )
+
+
+def _blocked(way):
+    """Return from where on the robot does not get away from its place any more, as at a wall."""
+    if len(way) <= HALF_A_SECOND:
+        return len(way)
+    gone = np.hypot(*(way[HALF_A_SECOND:] - way[:-HALF_A_SECOND]).T)
+    moving = np.flatnonzero(gone > DRIVES / 2)
+    return int(moving[-1]) + HALF_A_SECOND if len(moving) else len(way)
+
+
+def _fit(error, driving, rate):
+    """Return how often a robot that drives has an error of nearly 0, and one that turns makes its error smaller."""
+    fits = [float(np.mean(np.abs(error[driving]) < FACES))]
+    turning = (np.abs(error) > FACES) & (np.abs(error) < np.pi - FACES) & (np.abs(rate) > 0.1)
+    if turning.sum() >= FEWEST // 2:
+        fits.append(float(np.mean(np.sign(rate[turning]) == np.sign(error[turning]))) + 0.1)
+    on_the_spot = ~driving & (np.abs(rate) > 0.3)
+    if on_the_spot.sum() >= FEWEST // 2:  # who believes to face the waypoint does not turn on the spot
+        fits.append(float(np.mean(np.abs(error[on_the_spot]) > 0.15)) + 0.1)
+    return min(fits)

@@ -26,7 +26,7 @@ STATUS = {
     GoalStatus.STATUS_ABORTED: "ABORTED",
 }
 BUSY_AFTER = 1.0  # [s] after a goal was accepted, another one is sent
-TO_BE_REJECTED = ("empty", "too_fast", "backwards", "second")
+TO_BE_REJECTED = ("empty", "too_fast", "backwards", "standing", "second")
 
 
 def interface_fault():
@@ -75,6 +75,7 @@ class Dispatcher(Node):
         self.send("empty", [], patrol["speed"])
         self.send("too_fast", patrol["waypoints"], self.script["too_fast"])
         self.send("backwards", patrol["waypoints"], -0.2)
+        self.send("standing", patrol["waypoints"], 0.0)
         self.after(0.5, lambda: self.send("patrol", **patrol))
 
     def after(self, seconds, call):

@@ -9,6 +9,8 @@ from gz_course.grader.score.suspects import suspect
 MOVED = 0.25  # [m] from the start of a patrol: then its direction is known
 STRAIGHT = 0.15  # [rad]
 SOON = 0.6  # [s] after a second goal was accepted: who ends the patrol then ends it because of that goal
+LONG = 3.0  # [s] without feedback
+GOES = 0.03  # [m/s] a robot that is slower stands
 THERE = 0.17  # [m] from a waypoint
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 HEADED = {
@@ -26,7 +28,16 @@ def spoilt(run):
         return ""
     if found is not None and found["at"] < taken["at"] + SOON and run.nearest("patrol", found["at"])[0] == 0:
         return f"the patrol under way ended as {found['status']} {max(0.0, found['at'] - taken['at']):.2f} s later"
-    return "the robot left the patrol under way for its waypoint" if follows(run, taken["at"]) else ""
+    before = run.linear.values[(run.times > taken["at"] - SOON) & (run.times <= taken["at"])]
+    after = run.linear.values[(run.times > taken["at"] + SOON) & (run.times <= run.period("patrol")[1])]
+    if before.max(initial=0.0) > GOES and len(after) and np.abs(after).max() < GOES:
+        return "the robot stopped then, and the patrol under way went no further"
+    if follows(run, taken["at"]):
+        return "the robot left the patrol under way for its waypoint"
+    said = run.all("feedback", "patrol")
+    if found is None and said and said[-1]["at"] < taken["at"] + SOON and run.end > taken["at"] + LONG:
+        return "neither feedback nor a result of the patrol under way came after that"
+    return ""
 
 
 def follows(run, since):

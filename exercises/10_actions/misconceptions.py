@@ -12,6 +12,8 @@ BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearin
 LONG = 4.0  # [s] without a new command
 MOVED = 0.1  # [m] a robot that moved less stood
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
+TOO_FAST = 1.4  # times the speed of the goal
+STAYS = 0.4  # [m] from the last place
 SAME = 0.1  # of a speed, to be called the same
 
 
@@ -76,7 +78,8 @@ def other_places(way, points):
         "waypoints are taken for millimetres; they are in metres": points / 1000,
     }
     for words, places in candidates.items():
-        if not np.allclose(places, points) and _reaches(way, places):
+        stays = np.hypot(*(way[-1] - places[-1])) < STAYS  # who drives on does not take that place for the last one
+        if stays and not np.allclose(places, points) and _reaches(way, places):
             return words
     return ""
 
@@ -137,6 +140,8 @@ def blind(run, goal):
     """Find out whether the server sees the same place again and again although the robot moves."""
     said = run.all("feedback", goal)
     if len(said) >= 5 and len({each["distance"] for each in said}) == 1:
+        if kept := suspect(run.recording, "first_kept", "old_pose"):
+            return f"The server takes the robot to be where it was at first: {kept}"
         return (
             "The patrol never ended: the loop in execute does not see where the robot is, because its distance never "
             "changes. While it runs, /odom needs a thread of its own, that of a MultiThreadedExecutor, and a callback "
@@ -148,9 +153,15 @@ def blind(run, goal):
 def reached_early(run, goal):
     """Find out whether a patrol ended, or a waypoint was left, too far away."""
     found, points = run.one("result", goal), run.waypoints(goal)
+    start, end = run.period(goal)
+    fastest = float(run.linear.values[(run.times >= start) & (run.times <= end)].max(initial=0.0))
+    if fastest > TOO_FAST * (asked := run.one("sent", goal)["speed"]):
+        return (
+            f"Your server drives at {fastest:.2f} m/s where the goal says {asked:.2f}, and misses its waypoints: "
+            "linear.x must not be more than the speed of the goal"
+        )
     if found is None:
         return ""
-    start, end = run.period(goal)
     way = run.way[(run.times >= start) & (run.times <= end)]
     if not len(way) or np.hypot(*(way - way[0]).T).max() < MOVED:
         return (
@@ -230,6 +241,16 @@ def drives_on(run, speeds):
         return 0.0
     after = (run.times >= found["at"] + 0.3) & (run.times <= following["at"])
     return float(np.abs(speeds[after]).max(initial=0.0))
+
+
+def bearing_of(run, goal):
+    """Return by which wrong angle the robot steers in a patrol after the first one; empty if none fits."""
+    if run.one("accepted", goal) is None:
+        return ""
+    start, end = run.period(goal)
+    chosen = (run.times >= start) & (run.times <= end)
+    said = suspect(run.recording, "heading", "angle")
+    return said or BEARINGS.wrong_bearing(run, chosen, np.array(run.waypoints(goal), dtype=float))
 
 
 def obeys(run, since, until):

@@ -22,7 +22,12 @@ STILL = 1.5  # [s] before the end of a run: who sends feedback then is still dri
 STOPPED = 0.5  # [s] after the cancellation
 MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
-GOALS = {"empty": "a goal without waypoints", "too_fast": "a speed above max_speed", "backwards": "a negative speed"}
+GOALS = {
+    "empty": "a goal without waypoints",
+    "too_fast": "a speed above max_speed",
+    "backwards": "a negative speed",
+    "standing": "a speed of 0",
+}
 
 
 class Run:
@@ -135,7 +140,7 @@ def rejects(recording, parameters):
             return Finding(False, expected, f"your server accepted {words}", event["at"])
         if not run.one("rejected", goal):
             return Finding(False, expected, f"your server never answered to {words}")
-    return Finding(True, expected, "each of the three was rejected")
+    return Finding(True, expected, "each of the four was rejected")
 
 
 def visits(recording, parameters):
@@ -336,7 +341,7 @@ def busy(recording, parameters):
     found = run.one("result", "again")
     if found is None:
         measured = "the patrol after the cancelled one did not end"
-        why = still_driving(run, "again") or LATER.of_a_later_goal(run)
+        why = still_driving(run, "again") or LATER.of_a_later_goal(run) or MISCONCEPTIONS.bearing_of(run, "again")
         return Finding(False, expected, measured, run.end, explanation=why)
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"

@@ -11,7 +11,9 @@ from typing import Any
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.crash import read_crash
+from gz_course.grader.score.suspects import suspect
 
+NOT_ASKED_FOR = "from state EXECUTING with event CANCELED"
 RAISED = "Error raised in execute callback: "
 
 
@@ -32,6 +34,8 @@ def execute_raised(recording: Recording, facts: dict[str, Any]) -> str:
     where, error, said = f" ({crash.place})" if crash.place else "", crash.error, crash.meaning
     if error == "TypeError" and any("publish_feedback" in text for text in texts):
         said = "publish_feedback() takes the feedback of the action, such as Patrol.Feedback(...), and nothing else"
+    if NOT_ASKED_FOR in error and (kept := suspect(recording, "anew")):
+        said = kept
     advice = f" What that means: {said}." if said else ""
     return shown(
         f"Your execute callback raised {error} at {at:.2f} s of simulated time{where}; rclpy then ends "

@@ -305,6 +305,17 @@ def test_a_second_goal_to_which_the_robot_turns():
     assert "was rejected, but the robot drives to its waypoint" in found("visits", refused).explanation
 
 
+def test_a_second_goal_that_stops_the_robot():
+    patrol = with_a_second(Patrol([[0.4, 0.0]], status=""), "accepted", at=1.9)
+    assert "the robot stopped then" in found("busy", patrol).explanation and found("visits", patrol).gated
+
+
+def test_a_second_goal_after_which_nothing_is_said_of_the_first():
+    patrol = with_a_second(Patrol([[4.0, 0.0]], status="").feedback(np.hypot), "accepted")
+    patrol.events = [each for each in patrol.events if each[1] != "feedback" or each[0] < 2.1]
+    assert "neither feedback nor a result of the patrol" in found("busy", patrol).explanation
+
+
 def test_a_rejected_goal_whose_speed_is_taken():
     patrol = with_a_second(Patrol(), "rejected")
     assert found("speed", patrol).passed
@@ -318,6 +329,27 @@ def test_a_heading_in_degrees():
     patrol.signals["truth/robot/yaw"] = np.where(patrol.times > FROM, direction / 57.3, 0.0)
     patrol.signals["truth/robot/angular_z"] = 0.03 + 0 * patrol.times
     assert "its heading is in degrees" in found("visits", patrol).explanation
+
+
+def test_a_robot_that_turns_past_the_waypoint():
+    patrol = Patrol([[1.2, 0.0]], status="")
+    after = np.arange(20) * 0.15
+    patrol.signals["truth/robot/yaw"] = np.r_[patrol.signals["truth/robot/yaw"][:-20], after]
+    patrol.signals["truth/robot/linear_x"] = np.where(patrol.times < patrol.end - 0.5, 0.4, 0.0)
+    patrol.signals["truth/robot/angular_z"] = np.where(patrol.times < patrol.end, 0.0, 3.0)
+    assert "turned past the waypoint" in found("visits", patrol).explanation
+
+
+def test_a_place_that_is_kept_from_the_first_message():
+    patrol = Patrol([[3.0, 0.0]], status="").feedback(lambda dx, dy: 1.2)
+    assert "/odom needs a thread of its own" in found("visits", patrol).explanation
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "first_kept", "said": "so it is"}]}
+    assert "where it was at first: line 7: so it is" in found("visits", patrol).explanation
+
+
+def test_a_robot_that_misses_because_it_is_too_fast():
+    patrol = Patrol([[1.2, 0.0], [1.9, 0.0]], speed=1.5).feedback(lambda dx, dy: 0.05)
+    assert "drives at 1.50 m/s where the goal says 0.40" in found("visits", patrol).explanation
 
 
 def test_a_robot_that_circles_around_the_waypoint():

@@ -54,7 +54,14 @@ def answers(tree: ast.AST) -> Iterator[Place]:
         if role not in ANSWERS:
             continue
         returned, kind = _returned(function), ANSWERS[role]
-        wrong = [each for each in returned if each is None or isinstance(each, ast.Constant | ast.Compare | ast.BoolOp)]
+        others = set(ANSWERS.values()) - {kind}
+        wrong = [
+            each
+            for each in returned
+            if each is None
+            or isinstance(each, ast.Constant | ast.Compare | ast.BoolOp)
+            or (isinstance(each, ast.Attribute) and last_name(each.value) in others)
+        ]
         if wrong or not returned:
             what = ast.unparse(wrong[0]) if wrong and wrong[0] is not None else "nothing"
             yield (
@@ -190,7 +197,8 @@ def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
     made = {ast.unparse(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in LOCKS}
     for function in (each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)):
         for lock, line, held in _held(function):
-            sleeps = any(isinstance(n, ast.While | ast.For) and _pauses(n) for part in held for n in ast.walk(part))
+            loops = (n for part in held for n in ast.walk(part) if isinstance(n, ast.While | ast.For))
+            sleeps = any("sleep" in called(loop) for loop in loops)
             others = (each for each in functions(tree) if each is not function)
             waits = next((each for each in others if any(name == lock for name, _, _ in _held(each))), None)
             if lock in made and sleeps and waits is not None:

@@ -186,6 +186,32 @@ def _of_atan2(value: ast.AST) -> bool:
     return bool(called(value) & {"atan2", "arctan2"}) and not _in_degrees(value) and isinstance(value, ast.Call)
 
 
+def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading of a quaternion that a function returns in degrees, in a file that makes no radians of it."""
+    if called(tree) & TO_RADIANS or _to_radians(tree):
+        return
+    aims = any(called(n) & {"atan2", "arctan2"} and not _of_quaternion(n) for n in ast.walk(tree) if _is_call(n))
+    for node in ast.walk(tree):
+        value = node.value if isinstance(node, ast.Return) else None
+        if aims and value is not None and _in_degrees(value) and _of_quaternion(value):
+            yield (
+                value.lineno,
+                "angle",
+                f"{ast.unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
+                "radians; both must be in one unit",
+            )
+
+
+def _is_call(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and last_name(node.func) in ("atan2", "arctan2")
+
+
+def _of_quaternion(node: ast.AST) -> bool:
+    parts = {each.attr for each in ast.walk(node) if isinstance(each, ast.Attribute)}
+    return {"z", "w"} <= parts
+
+
 LOOKS = (
-    quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first, degrees_beside_radians, differences,
+    headings_in_degrees, quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first,
+    degrees_beside_radians, differences,
 )  # fmt: skip

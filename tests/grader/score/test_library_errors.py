@@ -97,5 +97,21 @@ def test_feedback_of_another_type_is_named(record):
     assert "such as Patrol.Feedback(...)" in execute_raised(record({}, lines=told, submission="node.py"), {})
 
 
+def test_a_flag_of_cancellations_that_stays_is_named_with_the_error(record):
+    told = lines(
+        "Traceback (most recent call last):",
+        '  File "/submission/node.py", line 9, in execute',
+        "    goal_handle.canceled()",
+        "RCLError: goal_handle attempted invalid transition from state EXECUTING with event CANCELED, at goal_handle.c",
+    )
+    facts = {"suspects": [{"line": 5, "about": "anew", "said": "self.cancelled stays so"}]}
+    assert "What that means: line 5: self.cancelled stays so" in execute_raised(
+        record({}, facts=facts, lines=told, submission="node.py"), facts
+    )
+    assert "is for a goal that the client wants to cancel" in execute_raised(
+        record({}, lines=told, submission="node.py"), {}
+    )
+
+
 def test_nothing_is_said_where_execute_raised_nothing(record):
     assert execute_raised(record({}, lines=[(1.0, "[INFO] [a]: Goal accepted")], submission="node.py"), {}) == ""

@@ -55,6 +55,11 @@ def test_a_right_file_has_none():
     ("old", "new", "words"),
     [
         ("return CancelResponse.ACCEPT", "return True", "return CancelResponse.ACCEPT or CancelResponse.REJECT"),
+        (
+            "return CancelResponse.ACCEPT",
+            "return GoalResponse.ACCEPT",
+            "returns GoalResponse.ACCEPT, which is no answer",
+        ),
         ("        return CancelResponse.ACCEPT", "        handle.stop()", "returns nothing, which is no answer"),
         ("return GoalResponse.REJECT\n", "return False\n", "goal_callback returns False"),
         ("return GoalResponse.ACCEPT if goal.speed > 0 else GoalResponse.REJECT", "return goal.speed > 0", "no answer"),

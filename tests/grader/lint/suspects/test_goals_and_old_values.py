@@ -103,6 +103,16 @@ def test_an_angle_in_degrees_beside_one_in_radians():
     assert said(heading.replace("atan2(dy, dx) -", "degrees(atan2(dy, dx)) -"), "angle") == ""
 
 
+def test_a_heading_that_is_returned_in_degrees():
+    source = (
+        "def yaw(q):\n    return math.degrees(2 * math.atan2(q.z, q.w))\n\n"
+        "def turn(self, p):\n    return math.atan2(p.y - self.y, p.x - self.x) - self.heading\n"
+    )
+    assert "is a heading in degrees" in said(source, "angle")
+    assert said(source.replace("self.heading", "math.radians(self.heading)"), "angle") == ""
+    assert said(source.replace("math.degrees", ""), "angle") == ""
+
+
 @pytest.mark.parametrize(
     ("source", "about", "words"),
     [
