@@ -24,6 +24,7 @@ NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
 STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
 NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 HEADING = "its own heading"  # words of an explanation that a line of the file may say better
+TYPES = {"ROS_TO_GZ": "geometry_msgs/msg/Twist", "GZ_TO_ROS": "nav_msgs/msg/Odometry"}
 DRIVES, HEARS = "cmd_vel", "odom"
 ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
@@ -193,6 +194,12 @@ def own_topics(recording, parameters):
         if here[0].direction != direction:
             why = "commands go from ROS to Gazebo, ]" if topic.endswith(DRIVES) else "odometry comes from Gazebo, ["
             measured = f"{topic} has the direction {here[0].direction}, not {direction}"
+            return Finding(False, expected, measured, explanation=why)
+    for topic, (_, direction) in wanted.items():
+        kind, given = TYPES[direction], next(b.ros_type for b in made if b.ros_topic == topic)
+        if given != kind:
+            measured = f"{topic} is bridged as {given}, not as {kind}"
+            why = "DDS connects equal types only, and all others use the type of the task"
             return Finding(False, expected, measured, explanation=why)
     silent = [t for t in wanted if t.endswith(HEARS) and not next(b.to_ros for b in made if b.ros_topic == t)]
     if silent:

@@ -63,7 +63,7 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
         for part in (file.value(each.value) for each in call.keywords):
             words |= {text(each).rpartition("/")[2] for each in ast.walk(part)} if part is not None else set()
         program = next(iter(sorted(words & nodes.keys())), "")
-        known = _declared(nodes[program]) if program else set()
+        known = declared_parameters(nodes[program]) if program else set()
         for name, line in _given(file, call) if known else ():
             if name not in known | OF_EVERY_NODE:
                 yield (
@@ -73,7 +73,7 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
                 )
 
 
-def _declared(content: bytes) -> set[str]:
+def declared_parameters(content: bytes) -> set[str]:
     """Return the parameters that a program declares; none if that is not known."""
     try:
         tree = ast.parse(content)
