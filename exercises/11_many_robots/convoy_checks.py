@@ -255,7 +255,7 @@ def listens_to_the_one_in_front(recording, parameters):
             elif below := [topic for topic in heard if topic.startswith(f"/{name}/") and topic.count("/") > 2]:
                 why = _below_its_namespace(below[0], name, wanted)
             elif heard == [f"/{name}/{HEARS}"]:
-                why = f"it hears only itself: front/odom must become /{front}/{HEARS} by a remapping"
+                why = f"it hears only its own odometry: that of the robot in front is /{front}/{HEARS}"
             elif heard == [f"/{front}/{HEARS}"]:
                 why = "it hears only the robot in front, and not its own odometry"
             elif fixed := [t for t in heard if t not in wanted and not OF_A_ROBOT.match(t)]:
@@ -330,6 +330,15 @@ def _too_seldom(recording, name):
     )
 
 
+def _few(recording, name):
+    """Return that a follower stopped sending commands after the first; empty if it did not."""
+    times = recording.signal(f"topics/{name}/{DRIVES}/linear/x").times / 1e9
+    if not 0 < len(times) < FITS["FEWEST"]:
+        return ""
+    last = f"its last command comes at {times[-1]:.1f} s"
+    return f"its node publishes {len(times)} command{'s' if len(times) > 1 else ''} only, and {last}"
+
+
 def keeps_together(recording, parameters):
     """Pass if the first robot drives, and each other one is behind the one in front all the time."""
     names, called = _names(recording)
@@ -347,9 +356,11 @@ def keeps_together(recording, parameters):
         sent = FITS["heard"](recording, name, front)
         if driven[name] < 0.3:
             why = "its node publishes no speed above zero"
-            seen = suspect(recording, "first_kept") or (FITS["seen_elsewhere"](sent) if sent else "")
+            seen = suspect(recording, "first_kept", "whole_speed") or (FITS["seen_elsewhere"](sent) if sent else "")
             if said := seen or FITS["ORIGINS"]["sideways"](recording, name):
                 why = f"its node publishes no speed above zero: {said}"
+            elif few := _few(recording, name):
+                why = few
             elif sent and (said := FITS["speed"](sent)):
                 said = suspect(recording, "gap") or said
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said

@@ -104,6 +104,8 @@ def test_a_good_follower_has_no_misconception(delay):
         (lambda h: speed_of(distance(h) - GAP, least=0.2), "never drives slower than 0.20 m/s"),
         (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y - h.y) - GAP), "begins where its own robot began"),
         (lambda h: h.v, "its speed is that of the robot in front"),
+        (lambda h: speed_of(distance(h) - GAP, most=900.0, gain=1000.0), "linear.x is in metres per second"),
+        (lambda h: speed_of(np.hypot(h.front_y - h.x, h.front_x + GAP - h.y) - GAP), "exchanges x and y"),
         (lambda h: speed_of(np.hypot(h.front_x + 2.4 - h.x, h.aside) - GAP), "to have begun 2.4 m ahead"),
         (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y + GAP - h.y) - GAP), "adds the 1.2 m to y"),
         (lambda h: speed_of(np.hypot(h.v + GAP - h.x, h.y) - GAP), "takes the speed of the robot in front, twist"),
@@ -121,6 +123,7 @@ def test_a_wrong_speed_is_explained(speed, words):
         (lambda h: np.arctan2(h.ahead, h.aside) - h.heading, "exchanges the arguments of atan2"),
         (lambda h: wrapped(h.heading - bearing(h)), "the sign of angular.z is wrong"),
         (lambda h: wrapped(bearing(h) - h.front_heading), "subtracts the heading of the robot in front"),
+        (lambda h: wrapped(bearing(h) + np.pi - h.heading), "atan2(front.y - own.y, front.x - own.x)"),
         (lambda h: h.w / 2, "sends the turning rate of the robot in front"),
     ],
 )
@@ -302,3 +305,11 @@ def test_types_and_qualities_that_do_not_meet(end, words):
         [facts | {"reliability": reliability, "durability": durability}], "robot2", "robot1"
     )
     assert words in said and bool(words) == bool(said)
+
+
+def test_a_follower_that_soon_falls_silent():
+    def published(count):
+        signal = Signal(np.arange(0, count * 100_000_000, 100_000_000), np.zeros(count))
+        return CHECKS["_few"](SimpleNamespace(signal=lambda name: signal), "robot2")
+
+    assert "publishes 1 command only" in published(1) and published(0) == published(40) == ""
