@@ -76,6 +76,8 @@ def in_a_row(recording, parameters):
         elif len(there) < len(names) and there == names[: len(there)]:
             why = f"the argument robots has no effect, or a create failed: {len(names)} robots were asked for"
             why = f"a create failed: {failed}" if failed else why
+            if "already has something called" in failed:
+                why = f"each create needs a name of its own, -name {names[len(there)]} and so on: {failed}"
         elif len(there) < len(names) and failed:
             why = f"a create failed: {failed}"
         elif len(there) == len(names) and numbers == [str(number) for number in range(len(there))]:
