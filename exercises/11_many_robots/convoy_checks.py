@@ -14,7 +14,6 @@ from gz_course.grader.score.launched import argument, complaint, deaths, declare
 from gz_course.grader.score.suspects import suspect
 
 GAP = 1.2  # [m]
-SELDOM = 0.4  # [s] between the commands of a follower
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
 ROW = 0.15  # [m] that a robot may start beside its place
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
@@ -27,6 +26,7 @@ HEADING = "its own heading"  # words of an explanation that a line of the file m
 TYPES = {"ROS_TO_GZ": "geometry_msgs/msg/Twist", "GZ_TO_ROS": "nav_msgs/msg/Odometry"}
 DRIVES, HEARS = "cmd_vel", "odom"
 ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
+_few, _too_seldom = ENDS["few"], ENDS["too_seldom"]
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
@@ -228,7 +228,10 @@ def listens_to_the_one_in_front(recording, parameters):
     nodes = {end["node"] for end in ends}
     drivers = sorted(e["node"] for e in ends if (e["kind"], e["topic"]) == ("publisher", f"/robot1/{DRIVES}"))
     if drivers:
-        return Finding(False, expected, f"{drivers[0]} publishes on /robot1/cmd_vel, which somebody else drives")
+        why = "the first robot has nobody in front, so it gets no follower" if "/robot1/" in drivers[0] else ""
+        why = why or ("it steers the robot in front instead of its own" if "/robot2/" in drivers[0] else "")
+        measured = f"{drivers[0]} publishes on /robot1/cmd_vel, which somebody else drives"
+        return Finding(False, expected, measured, explanation=why)
     for front, name in itertools.pairwise(names):
         node = f"/{name}/follower"
         if node not in nodes:
@@ -237,6 +240,8 @@ def listens_to_the_one_in_front(recording, parameters):
             why = f"the name of the node is to be follower, in the namespace /{name}" if others else ""
             if all(each.endswith("/follower") for each in others):
                 why = ""
+            if name == names[-1] and others == [f"/{each}/follower" for each in names[1:-1]] != []:
+                why = f"only the last robot, {name}, has no follower, as with a range(2, n), which ends before n"
             if "/follower" in others:
                 why = "its node has no namespace: all followers have the same name"
             if not others and (program := _no_program(recording)):
@@ -319,26 +324,6 @@ def _reason(sent):
     turning = "" if speed else FITS["turning"](sent)  # a wrong place makes both wrong
     turns = f"it turns another way than to the place of the robot in front: {turning}" if turning else ""
     return speed or turns
-
-
-def _too_seldom(recording, name):
-    """Return that a follower sends its commands too seldom; empty if it does not."""
-    times = recording.signal(f"topics/{name}/{DRIVES}/linear/x").times / 1e9
-    if len(times) < 3 or (apart := float(np.median(np.diff(times)))) < SELDOM:
-        return ""
-    return (
-        f"its node sends a command every {apart:.1f} s only, and the robot obeys the old one meanwhile: it falls "
-        "behind, and drives on when it should stop; call create_timer with a shorter period [s], such as 0.1"
-    )
-
-
-def _few(recording, name):
-    """Return that a follower stopped sending commands after the first; empty if it did not."""
-    times = recording.signal(f"topics/{name}/{DRIVES}/linear/x").times / 1e9
-    if not 0 < len(times) < FITS["FEWEST"]:
-        return ""
-    last = f"its last command comes at {times[-1]:.1f} s"
-    return f"its node publishes {len(times)} command{'s' if len(times) > 1 else ''} only, and {last}"
 
 
 def keeps_together(recording, parameters):

@@ -313,3 +313,13 @@ def test_a_follower_that_soon_falls_silent():
         return CHECKS["_few"](SimpleNamespace(signal=lambda name: signal), "robot2")
 
     assert "publishes 1 command only" in published(1) and published(0) == published(40) == ""
+
+
+def test_only_the_last_robot_has_no_follower():
+    topics = {"/robot1/odom": "subscription", "/robot2/odom": "subscription", "/clock": "subscription"}
+    topics["/robot2/cmd_vel"] = "publisher"
+    ends = [{"kind": kind, "topic": topic, "node": "/robot2/follower"} for topic, kind in topics.items()]
+    facts = {"endpoints": ends, "launch": {}}
+    given = {"trial_parameters": '{"parameters": {"robots": "3"}}'}
+    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: given, lines=lambda entity: [])
+    assert "only the last robot, robot3" in CHECKS["listens_to_the_one_in_front"](recording, {}).explanation
