@@ -74,7 +74,11 @@ def in_a_row(recording, parameters):
                 f"{len(names)} robots were asked for"
             )
         elif len(there) < len(names) and there == names[: len(there)]:
-            why = f"the argument robots has no effect, or a create failed: {len(names)} robots were asked for"
+            times = sum(bool(STARTED.match(line.text)) for line in recording.lines("log/student"))
+            why = (
+                f"the argument robots has no effect, or a loop ends too early: create was started {times} times, and "
+                f"{len(names)} robots were asked for"
+            )
             why = f"a create failed: {failed}" if failed else why
             if "already has something called" in failed:
                 why = f"each create needs a name of its own, -name {names[len(there)]} and so on: {failed}"

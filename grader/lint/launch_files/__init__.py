@@ -17,6 +17,7 @@ from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, tex
 from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
 from gz_course.grader.lint.slips.late_binding import late_bound
+from gz_course.grader.lint.slips.no_effect import first_iteration
 from gz_course.grader.lint.slips.scan_callbacks import kept_defaults
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -39,7 +40,7 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         file = LaunchFile(tree)
         slips = [place for look in (*values.LOOKS, *actions.LOOKS, *commands.LOOKS) for place in look(file)]
         slips += [place for look in (*ros_arguments.LOOKS, *namespaces.LOOKS) for place in look(file)]
-        slips += [*kept_defaults(tree), *namespaces.slashes_in_rules(file, nodes)]
+        slips += [*kept_defaults(tree), *first_iteration(tree), *namespaces.slashes_in_rules(file, nodes)]
         slips += ros_arguments.undeclared(file, nodes)
         slips += [*late_bound(tree), *missing_commas(content), *unread.undeclared_parameters(file, nodes)]
         slips += [place for look in unread.LOOKS for place in look(file)]
