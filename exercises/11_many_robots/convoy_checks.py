@@ -379,7 +379,9 @@ def keeps_together(recording, parameters):
             measured = f"{called}, {name} was {gap[worst]:.2f} m from {front} at {times[worst]:.1f} s"
             why = "it drives on where the distance is the gap, and should stand there"
             if gap[worst] > GAP:
+                meanwhile = FITS["ORIGINS"]["behind"](sent) if sent else ""
                 why = "it falls behind, or turns another way than to the place of the robot in front"
+                why = f"it falls behind: {meanwhile}" if meanwhile else why
             return Finding(False, expected, measured, float(times[worst]), explanation=reason or why)
         if abs(gap[-1] - GAP) > AT_REST:
             measured = f"{called}, {name} ended {gap[-1]:.2f} m from {front}"

@@ -146,7 +146,8 @@ def _angles(h):
     )
     yield (
         wrapped(bearing + np.pi - h.heading),
-        "it turns its back to the robot in front: the direction is atan2(front.y - own.y, front.x - own.x)",
+        "it turns its back to the robot in front: the direction is turned by pi, as by atan2(own.y - front.y, own.x - "
+        "front.x), or by an angle that lacks the last - pi",
     )
     yield wrapped(np.arctan2(h.front_y + GAP - h.y, h.front_x - h.x) - h.heading), "it adds the 1.2 m to y, not to x"
     yield (
@@ -191,7 +192,8 @@ def speed(every):
     fits = right is not None and right[2] > FITS
     if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
         return _pauses(every) or _of_the_gap(v, *right[:2])
-    other = ORIGINS["begun_elsewhere"](every, line) or _best([each for h in every for each in _lengths(h)], v, right)
+    other = ORIGINS["begun_elsewhere"](every, line) or ORIGINS["to_the_place"](every, line)
+    other = other or _best([each for h in every for each in _lengths(h)], v, right)
     return other or _pauses(every) or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
 
 
@@ -302,9 +304,9 @@ def _constant(h):
         if min(h.distance.max(), np.hypot(h.front_x - h.x, h.front_y - h.y).max()) < GAP + WIDE:
             return ""
         return (
-            f"it sends no speed above zero, even when it is {h.distance.max():.1f} m behind: that is so with a speed "
-            "made of gap - distance, where it is distance - gap, with a condition that holds only when it is near, and "
-            "with a place of the robot in front that is too far behind"
+            f"it sends no speed above zero, even when it is {h.distance.max():.1f} m behind: that is so, among others, "
+            "with a speed made of gap - distance, where it is distance - gap, with a condition that holds only when it "
+            "is near, and with a place of the robot in front that is too far behind"
         )
     return f"it sends linear.x {v:.2f} m/s all the time, whatever the distance is"
 
@@ -328,6 +330,8 @@ def _of_the_gap(v, slope, offset):
 
 def _limits(v):
     fastest, slowest = float(v.max()), float(v.min())
+    if fastest <= 1e-6 and slowest < -EDGE:
+        return "it drives backwards: all its speeds are below zero, so the sign of linear.x is wrong"
     if (np.abs(v - fastest) < 1e-6).sum() >= FEWEST and fastest < 0.5 - EDGE:
         return f"it never drives faster than {fastest:.2f} m/s, and robot1 drives 0.5 m/s"
     if (np.abs(v - slowest) < 1e-6).sum() >= FEWEST and slowest > EDGE:
