@@ -14,7 +14,6 @@ from gz_course.grader.score.launched import argument, complaint, deaths, declare
 from gz_course.grader.score.suspects import suspect
 
 GAP = 1.2  # [m]
-SELDOM = 0.4  # [s] between the commands of a follower
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
 ROW = 0.15  # [m] that a robot may start beside its place
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
@@ -24,8 +23,10 @@ NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
 STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
 NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 HEADING = "its own heading"  # words of an explanation that a line of the file may say better
+TYPES = {"ROS_TO_GZ": "geometry_msgs/msg/Twist", "GZ_TO_ROS": "nav_msgs/msg/Odometry"}
 DRIVES, HEARS = "cmd_vel", "odom"
 ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
+_few, _too_seldom = ENDS["few"], ENDS["too_seldom"]
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
@@ -73,8 +74,14 @@ def in_a_row(recording, parameters):
                 f"{len(names)} robots were asked for"
             )
         elif len(there) < len(names) and there == names[: len(there)]:
-            why = f"the argument robots has no effect, or a create failed: {len(names)} robots were asked for"
+            times = sum(bool(STARTED.match(line.text)) for line in recording.lines("log/student"))
+            why = (
+                f"the argument robots has no effect, or a loop ends too early: create was started {times} times, and "
+                f"{len(names)} robots were asked for"
+            )
             why = f"a create failed: {failed}" if failed else why
+            if "already has something called" in failed:
+                why = f"each create needs a name of its own, -name {names[len(there)]} and so on: {failed}"
         elif len(there) < len(names) and failed:
             why = f"a create failed: {failed}"
         elif len(there) == len(names) and numbers == [str(number) for number in range(len(there))]:
@@ -194,6 +201,12 @@ def own_topics(recording, parameters):
             why = "commands go from ROS to Gazebo, ]" if topic.endswith(DRIVES) else "odometry comes from Gazebo, ["
             measured = f"{topic} has the direction {here[0].direction}, not {direction}"
             return Finding(False, expected, measured, explanation=why)
+    for topic, (_, direction) in wanted.items():
+        kind, given = TYPES[direction], next(b.ros_type for b in made if b.ros_topic == topic)
+        if given != kind:
+            measured = f"{topic} is bridged as {given}, not as {kind}"
+            why = "DDS connects equal types only, and all others use the type of the task"
+            return Finding(False, expected, measured, explanation=why)
     silent = [t for t in wanted if t.endswith(HEARS) and not next(b.to_ros for b in made if b.ros_topic == t)]
     if silent:
         paused = any(each["paused"] for each in ran(recording))
@@ -219,7 +232,10 @@ def listens_to_the_one_in_front(recording, parameters):
     nodes = {end["node"] for end in ends}
     drivers = sorted(e["node"] for e in ends if (e["kind"], e["topic"]) == ("publisher", f"/robot1/{DRIVES}"))
     if drivers:
-        return Finding(False, expected, f"{drivers[0]} publishes on /robot1/cmd_vel, which somebody else drives")
+        why = "the first robot has nobody in front, so it gets no follower" if "/robot1/" in drivers[0] else ""
+        why = why or ("it steers the robot in front instead of its own" if "/robot2/" in drivers[0] else "")
+        measured = f"{drivers[0]} publishes on /robot1/cmd_vel, which somebody else drives"
+        return Finding(False, expected, measured, explanation=why)
     for front, name in itertools.pairwise(names):
         node = f"/{name}/follower"
         if node not in nodes:
@@ -228,6 +244,8 @@ def listens_to_the_one_in_front(recording, parameters):
             why = f"the name of the node is to be follower, in the namespace /{name}" if others else ""
             if all(each.endswith("/follower") for each in others):
                 why = ""
+            if name == names[-1] and others == [f"/{each}/follower" for each in names[1:-1]] != []:
+                why = f"only the last robot, {name}, has no follower, as with a range(2, n), which ends before n"
             if "/follower" in others:
                 why = "its node has no namespace: all followers have the same name"
             if not others and (program := _no_program(recording)):
@@ -248,7 +266,7 @@ def listens_to_the_one_in_front(recording, parameters):
             elif below := [topic for topic in heard if topic.startswith(f"/{name}/") and topic.count("/") > 2]:
                 why = _below_its_namespace(below[0], name, wanted)
             elif heard == [f"/{name}/{HEARS}"]:
-                why = f"it hears only itself: front/odom must become /{front}/{HEARS} by a remapping"
+                why = f"it hears only its own odometry: that of the robot in front is /{front}/{HEARS}"
             elif heard == [f"/{front}/{HEARS}"]:
                 why = "it hears only the robot in front, and not its own odometry"
             elif fixed := [t for t in heard if t not in wanted and not OF_A_ROBOT.match(t)]:
@@ -312,17 +330,6 @@ def _reason(sent):
     return speed or turns
 
 
-def _too_seldom(recording, name):
-    """Return that a follower sends its commands too seldom; empty if it does not."""
-    times = recording.signal(f"topics/{name}/{DRIVES}/linear/x").times / 1e9
-    if len(times) < 3 or (apart := float(np.median(np.diff(times)))) < SELDOM:
-        return ""
-    return (
-        f"its node sends a command every {apart:.1f} s only, and the robot obeys the old one meanwhile: it falls "
-        "behind, and drives on when it should stop; call create_timer with a shorter period [s], such as 0.1"
-    )
-
-
 def keeps_together(recording, parameters):
     """Pass if the first robot drives, and each other one is behind the one in front all the time."""
     names, called = _names(recording)
@@ -340,9 +347,11 @@ def keeps_together(recording, parameters):
         sent = FITS["heard"](recording, name, front)
         if driven[name] < 0.3:
             why = "its node publishes no speed above zero"
-            seen = suspect(recording, "first_kept") or (FITS["seen_elsewhere"](sent) if sent else "")
+            seen = suspect(recording, "first_kept", "whole_speed") or (FITS["seen_elsewhere"](sent) if sent else "")
             if said := seen or FITS["ORIGINS"]["sideways"](recording, name):
                 why = f"its node publishes no speed above zero: {said}"
+            elif few := _few(recording, name):
+                why = few
             elif sent and (said := FITS["speed"](sent)):
                 said = suspect(recording, "gap") or said
                 why = f"its node publishes no speed above zero: {said}" if not sent[0].linear.any() else said
@@ -370,7 +379,9 @@ def keeps_together(recording, parameters):
             measured = f"{called}, {name} was {gap[worst]:.2f} m from {front} at {times[worst]:.1f} s"
             why = "it drives on where the distance is the gap, and should stand there"
             if gap[worst] > GAP:
+                meanwhile = FITS["ORIGINS"]["behind"](sent) if sent else ""
                 why = "it falls behind, or turns another way than to the place of the robot in front"
+                why = f"it falls behind: {meanwhile}" if meanwhile else why
             return Finding(False, expected, measured, float(times[worst]), explanation=reason or why)
         if abs(gap[-1] - GAP) > AT_REST:
             measured = f"{called}, {name} ended {gap[-1]:.2f} m from {front}"

@@ -1,5 +1,9 @@
 """Why a follower gets or sends nothing although its topics have the right names: types and quality of service."""
 
+import numpy as np
+
+SELDOM = 0.4  # [s] between the commands of a follower
+FEWEST = 8  # commands of a follower that goes on
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
 
 
@@ -29,3 +33,23 @@ def unheard(ends, name, front):
                 "not offer, so it gets nothing: use the default QoS, a depth of 10"
             )
     return ""
+
+
+def few(recording, name):
+    """Return that a follower stopped sending commands after the first; empty if it did not."""
+    times = recording.signal(f"topics/{name}/cmd_vel/linear/x").times / 1e9
+    if not 0 < len(times) < FEWEST:
+        return ""
+    last = f"its last command comes at {times[-1]:.1f} s"
+    return f"its node publishes {len(times)} command{'s' if len(times) > 1 else ''} only, and {last}"
+
+
+def too_seldom(recording, name):
+    """Return that a follower sends its commands too seldom; empty if it does not."""
+    times = recording.signal(f"topics/{name}/cmd_vel/linear/x").times / 1e9
+    if len(times) < 3 or (apart := float(np.median(np.diff(times)))) < SELDOM:
+        return ""
+    return (
+        f"its node sends a command every {apart:.1f} s only, and the robot obeys the old one meanwhile: it falls "
+        "behind, and drives on when it should stop; call create_timer with a shorter period [s], such as 0.1"
+    )

@@ -22,6 +22,9 @@ SHARE = 0.9  # of the commands
 ASTRAY = 0.05  # [rad] from the direction in which a follower does not turn: more is another angle
 TRACKED = 0.3  # [rad] from the direction of the robot in front: who stays nearer turns to it
 PLACES = "each odometry begins where its own robot began, and the robot in front began 1.2 m ahead"
+AWAY = 0.95  # of the commands that turn to the other side than that of the robot in front
+FASTEST = 5.0  # [m/s] no sensible speed of such a robot is larger
+TURNED = 1.0  # [rad]
 VARIES = 0.03  # least standard deviation of commands that can be fitted
 
 
@@ -114,9 +117,18 @@ def turning(every):
     if any(copied(h.angular, h.front_angular) for h in every):
         return "it sends the turning rate of the robot in front"
     right = _closest([(wrapped(np.arctan2(h.aside, h.ahead) - h.heading), "") for h in every], every[0].angular)
+    if right is not None and right[0] > 0 and abs(right[1]) > TURNED * right[0]:
+        right = None  # it is at rest where the robot in front is aside
     if right is not None and right[2] > FITS:
         return "it turns away from the robot in front: the sign of angular.z is wrong" if right[0] < 0 else ""
-    return _best([each for h in every for each in _angles(h)], every[0].angular, right, ASTRAY)
+    said = _best([each for h in every for each in _angles(h)], every[0].angular, right, ASTRAY)
+    away = max(_sides(h.heading - np.arctan2(h.aside, h.ahead), h.angular) for h in every)
+    if said or away < AWAY:
+        return said
+    return (
+        "it turns away from the robot in front: the sign of angular.z is wrong, or the direction is that from it to "
+        "the follower; it is atan2(front.y - own.y, front.x - own.x)"
+    )
 
 
 def _angles(h):
@@ -131,6 +143,11 @@ def _angles(h):
     yield (
         np.pi / 2 - wrapped(bearing - h.heading),
         "it exchanges the arguments of atan2: the angle to a place is atan2(y, x)",
+    )
+    yield (
+        wrapped(bearing + np.pi - h.heading),
+        "it turns its back to the robot in front: the direction is turned by pi, as by atan2(own.y - front.y, own.x - "
+        "front.x), or by an angle that lacks the last - pi",
     )
     yield wrapped(np.arctan2(h.front_y + GAP - h.y, h.front_x - h.x) - h.heading), "it adds the 1.2 m to y, not to x"
     yield (
@@ -165,6 +182,8 @@ def speed(every):
     v = every[0].linear
     if np.ptp(v) < EDGE:
         return _constant(every[0])
+    if (fastest := float(np.abs(v).max())) > FASTEST:
+        return f"it sends speeds of up to {fastest:.0f} m/s: linear.x is in metres per second, and robot1 drives 0.5"
     if any(copied(v, h.front_linear) for h in every):
         return "its speed is that of the robot in front, whatever the distance"
     if words := _summed(every):
@@ -173,7 +192,8 @@ def speed(every):
     fits = right is not None and right[2] > FITS
     if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
         return _pauses(every) or _of_the_gap(v, *right[:2])
-    other = ORIGINS["begun_elsewhere"](every, line) or _best([each for h in every for each in _lengths(h)], v, right)
+    other = ORIGINS["begun_elsewhere"](every, line) or ORIGINS["to_the_place"](every, line)
+    other = other or _best([each for h in every for each in _lengths(h)], v, right)
     return other or _pauses(every) or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
 
 
@@ -201,10 +221,10 @@ def seen_elsewhere(every):
                 "it looks for the robot in front 1.2 m too far behind: that one began 1.2 m ahead, so its place is "
                 "front.x + 1.2 - own.x"
             )
-    if not every[0].angular.any() and (np.abs(every[0].aside) > WIDE).sum() >= FEWEST:
+    if not every[0].angular.any() and not every[0].linear.any() and (np.abs(every[0].aside) > WIDE).sum() >= FEWEST:
         return (
-            "every command is zero, and it does not turn either although the robot in front drives to the side: the "
-            "node does not see that one move"
+            "every command is zero, in linear.x and in angular.z, although the robot in front drives ahead and to the "
+            "side: so it is with a node that does not see that one move, or does not send the numbers it has computed"
         )
     return ""
 
@@ -232,6 +252,10 @@ def _lengths(h):
     yield (
         np.hypot(h.front_linear + GAP - h.x, h.y),
         "it takes the speed of the robot in front, twist, for its place, which is pose.pose.position",
+    )
+    yield (
+        np.hypot(h.front_y - h.x, h.front_x + GAP - h.y),
+        "it exchanges x and y of the robot in front",
     )
     yield np.abs(h.ahead) + np.abs(h.aside), "it adds the distances along x and y: the distance is hypot(x, y)"
 
@@ -280,8 +304,9 @@ def _constant(h):
         if min(h.distance.max(), np.hypot(h.front_x - h.x, h.front_y - h.y).max()) < GAP + WIDE:
             return ""
         return (
-            f"it sends no speed above zero, even when it is {h.distance.max():.1f} m behind: that is so with a speed "
-            "made of gap - distance, where it is distance - gap, and with a condition that holds only when it is near"
+            f"it sends no speed above zero, even when it is {h.distance.max():.1f} m behind: that is so, among others, "
+            "with a speed made of gap - distance, where it is distance - gap, with a condition that holds only when it "
+            "is near, and with a place of the robot in front that is too far behind"
         )
     return f"it sends linear.x {v:.2f} m/s all the time, whatever the distance is"
 
@@ -305,6 +330,8 @@ def _of_the_gap(v, slope, offset):
 
 def _limits(v):
     fastest, slowest = float(v.max()), float(v.min())
+    if fastest <= 1e-6 and slowest < -EDGE:
+        return "it drives backwards: all its speeds are below zero, so the sign of linear.x is wrong"
     if (np.abs(v - fastest) < 1e-6).sum() >= FEWEST and fastest < 0.5 - EDGE:
         return f"it never drives faster than {fastest:.2f} m/s, and robot1 drives 0.5 m/s"
     if (np.abs(v - slowest) < 1e-6).sum() >= FEWEST and slowest > EDGE:

@@ -19,9 +19,11 @@ def begun_elsewhere(every, line):
     found = []
     for h in every:
         for place in PLACES:
-            fit = line(np.hypot(h.front_x + place - h.x, h.aside), v)
-            if fit is not None and fit[0] > 0:
-                found.append((fit[2], float(place), -fit[1] / fit[0]))
+            to_robot = np.hypot(h.front_x + place - h.x, h.aside)
+            for length in (to_robot, _ahead_of(h, place) + GAP):
+                fit = line(length, v)
+                if fit is not None and fit[0] > 0:
+                    found.append((fit[2], float(place), -fit[1] / fit[0]))
     if not found:
         return ""
     best, place, gap = max(found)
@@ -30,10 +32,55 @@ def begun_elsewhere(every, line):
         return ""
     if not 0.9 < gap < 1.5:
         return ""
+    where = f"{place:.1f} m ahead of" if place > 0 else f"{-place:.1f} m behind"
     return (
-        f"it takes the robot in front to have begun {place:.1f} m ahead of its own robot, but it began {GAP} m ahead: "
+        f"it takes the robot in front to have begun {where} its own robot, but it began {GAP} m ahead: "
         "front.x + 1.2 - own.x is how far ahead it is, for every pair"
     )
+
+
+def _ahead_of(h, begins=GAP):
+    """Return how far ahead the place 1.2 m behind the robot in front is, along the follower's own direction."""
+    x = h.front_x + begins - GAP * np.cos(h.front_heading) - h.x
+    y = h.front_y - GAP * np.sin(h.front_heading) - h.y
+    return np.cos(h.heading) * x + np.sin(h.heading) * y
+
+
+def to_the_place(every, line):
+    """Return what is wrong with a speed that is made of the distance to the place behind the robot in front."""
+    best, zero, past = 0.0, 0.0, False
+    for h in every:
+        x = h.front_x + GAP - GAP * np.cos(h.front_heading) - h.x
+        y = h.front_y - GAP * np.sin(h.front_heading) - h.y
+        nearer = bool((h.distance < GAP - 0.1).sum() >= 3)
+        for length, unsigned in ((np.hypot(x, y), True), (_ahead_of(h), False)):
+            fit = line(length, every[0].linear)
+            if fit is not None and fit[0] > 0 and fit[2] > best:
+                best, zero, past = fit[2], -fit[1] / fit[0], unsigned and nearer
+    if best < FITS:
+        return ""
+    if abs(zero) < NEAR and past:
+        return (
+            "its speed is made of the distance to the place behind the robot in front, which has no sign: beyond that "
+            "place it drives on instead of standing there"
+        )
+    if abs(zero - GAP) < NEAR:
+        return "it keeps 1.2 m to the place that is 1.2 m behind the robot in front: the gap is subtracted twice"
+    return ""
+
+
+def behind(every):
+    """Return what a follower that falls behind does meanwhile: it is slow, or it does not face the other robot."""
+    h = every[0]
+    far = h.distance > GAP + 0.45
+    if far.sum() < 8:
+        return ""
+    angle = np.arctan2(h.aside, h.ahead) - h.heading
+    beside = float(np.median(np.abs(np.arctan2(np.sin(angle), np.cos(angle)))[far]))
+    fast = float(np.median(h.linear[far]))
+    if beside > 0.5:
+        return f"it does not turn to the robot in front, which is {beside:.1f} rad beside its own direction meanwhile"
+    return f"its speed is about {fast:.2f} m/s meanwhile" if fast < 0.45 else ""
 
 
 def sideways(recording, name):

@@ -107,8 +107,12 @@ MEANINGS = (
         "reached by Path(__file__).parent, and a Python file is started by its path",
     ),
     (
-        re.compile(r"(?:False|True|\d+(?:\.\d+)?|None) is of type (?:bool|int|float|NoneType); text"),
+        re.compile(r"(?:False|True|None) is of type (?:bool|NoneType); text"),
         "values of launch arguments are texts: default_value='false', in quotes",
+    ),
+    (
+        re.compile(r"-?[\d.e-]+ is of type (?:int|float); text"),
+        "values of launch arguments and words of a command are texts: '0.5' in quotes, or str(...) of a number",
     ),
     (
         re.compile(r"the Python expression '.*' fails with NameError: name '(true|false)' is not defined"),

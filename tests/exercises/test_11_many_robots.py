@@ -78,6 +78,19 @@ def speed_of(length, least=0.0, most=0.8, gain=1.5):
     return float(np.clip(gain * length, least, most))
 
 
+def place(h, begins=GAP):
+    """Return where the place behind the robot in front is, as seen by the follower."""
+    return (
+        h.front_x + begins - GAP * np.cos(h.front_heading) - h.x,
+        h.front_y - GAP * np.sin(h.front_heading) - h.y,
+    )
+
+
+def place_ahead(h, begins):
+    x, y = place(h, begins)
+    return np.cos(h.heading) * x + np.sin(h.heading) * y
+
+
 def rule(speed=lambda h: speed_of(distance(h) - GAP), angle=lambda h: wrapped(bearing(h) - h.heading)):
     return lambda h: (speed(h), float(np.clip(2.0 * angle(h), -1.5, 1.5)))
 
@@ -104,6 +117,12 @@ def test_a_good_follower_has_no_misconception(delay):
         (lambda h: speed_of(distance(h) - GAP, least=0.2), "never drives slower than 0.20 m/s"),
         (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y - h.y) - GAP), "begins where its own robot began"),
         (lambda h: h.v, "its speed is that of the robot in front"),
+        (lambda h: speed_of(distance(h) - GAP, most=900.0, gain=1000.0), "linear.x is in metres per second"),
+        (lambda h: -speed_of(distance(h) - GAP), "the sign of its speed is wrong"),
+        (lambda h: -0.2 - speed_of(h.x * 0), "all the time"),
+        (lambda h: speed_of(place_ahead(h, 2.4)), "to have begun 2.4 m ahead"),
+        (lambda h: speed_of(np.hypot(*place(h))), "which has no sign: beyond that place it drives on"),
+        (lambda h: speed_of(np.hypot(h.front_y - h.x, h.front_x + GAP - h.y) - GAP), "exchanges x and y"),
         (lambda h: speed_of(np.hypot(h.front_x + 2.4 - h.x, h.aside) - GAP), "to have begun 2.4 m ahead"),
         (lambda h: speed_of(np.hypot(h.front_x - h.x, h.front_y + GAP - h.y) - GAP), "adds the 1.2 m to y"),
         (lambda h: speed_of(np.hypot(h.v + GAP - h.x, h.y) - GAP), "takes the speed of the robot in front, twist"),
@@ -121,6 +140,7 @@ def test_a_wrong_speed_is_explained(speed, words):
         (lambda h: np.arctan2(h.ahead, h.aside) - h.heading, "exchanges the arguments of atan2"),
         (lambda h: wrapped(h.heading - bearing(h)), "the sign of angular.z is wrong"),
         (lambda h: wrapped(bearing(h) - h.front_heading), "subtracts the heading of the robot in front"),
+        (lambda h: wrapped(bearing(h) + np.pi - h.heading), "the direction is turned by pi"),
         (lambda h: h.w / 2, "sends the turning rate of the robot in front"),
     ],
 )
@@ -302,3 +322,29 @@ def test_types_and_qualities_that_do_not_meet(end, words):
         [facts | {"reliability": reliability, "durability": durability}], "robot2", "robot1"
     )
     assert words in said and bool(words) == bool(said)
+
+
+def test_a_follower_that_soon_falls_silent():
+    def published(count):
+        signal = Signal(np.arange(0, count * 100_000_000, 100_000_000), np.zeros(count))
+        return CHECKS["_few"](SimpleNamespace(signal=lambda name: signal), "robot2")
+
+    assert "publishes 1 command only" in published(1) and published(0) == published(40) == ""
+
+
+def test_only_the_last_robot_has_no_follower():
+    topics = {"/robot1/odom": "subscription", "/robot2/odom": "subscription", "/clock": "subscription"}
+    topics["/robot2/cmd_vel"] = "publisher"
+    ends = [{"kind": kind, "topic": topic, "node": "/robot2/follower"} for topic, kind in topics.items()]
+    facts = {"endpoints": ends, "launch": {}}
+    given = {"trial_parameters": '{"parameters": {"robots": "3"}}'}
+    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: given, lines=lambda entity: [])
+    assert "only the last robot, robot3" in CHECKS["listens_to_the_one_in_front"](recording, {}).explanation
+
+
+def test_what_a_follower_does_while_it_falls_behind():
+    slow = FITS["heard"](Run(rule(lambda h: 0.2 + 0.01 * np.sin(h.x))), "robot2", "robot1")
+    assert "its speed is about 0.2" in FITS["ORIGINS"]["behind"](slow)
+    beside = FITS["heard"](Run(lambda h: (0.3, 0.9)), "robot2", "robot1")
+    assert "rad beside its own direction" in FITS["ORIGINS"]["behind"](beside)
+    assert FITS["ORIGINS"]["behind"](FITS["heard"](Run(rule()), "robot2", "robot1")) == ""

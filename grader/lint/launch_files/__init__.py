@@ -25,6 +25,7 @@ from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, tex
 from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
 from gz_course.grader.lint.slips.late_binding import late_bound
+from gz_course.grader.lint.slips.no_effect import first_iteration
 from gz_course.grader.lint.slips.scan_callbacks import kept_defaults
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -49,7 +50,8 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
             *values.LOOKS, *actions.LOOKS, *creating.LOOKS, *commands.LOOKS, *ros_arguments.LOOKS, *namespaces.LOOKS,
         )  # fmt: skip
         slips = [place for look in looks for place in look(file)]
-        slips += [*kept_defaults(tree), *namespaces.slashes_in_rules(file, nodes)]
+        slips += [*kept_defaults(tree), *first_iteration(tree), *namespaces.slashes_in_rules(file, nodes)]
+        slips += ros_arguments.undeclared(file, nodes)
         slips += [*late_bound(tree), *missing_commas(content), *unread.undeclared_parameters(file, nodes)]
         slips += [place for look in unread.LOOKS for place in look(file)]
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]

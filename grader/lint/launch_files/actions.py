@@ -177,7 +177,29 @@ def swapped_conditions(file: LaunchFile) -> Iterator[Place]:
             )
 
 
+def declared_too_late(file: LaunchFile) -> Iterator[Place]:
+    """Find an OpaqueFunction that asks for an argument which only a later item of the list declares."""
+    own = {node.name: node for node in file.tree.body if isinstance(node, ast.FunctionDef)}
+    for call in file.calls("LaunchDescription"):
+        given = file.value(argument(call, "initial_entities", 0))
+        actions = [file.value(each) for each in given.elts] if isinstance(given, ast.List) else []
+        for place, action in enumerate(actions):
+            if not isinstance(action, ast.Call) or last_name(action.func) != "OpaqueFunction":
+                continue
+            function = own.get(last_name(argument(action, "function", 0) or action.func))
+            asked = {text(each) for each in ast.walk(function)} if function is not None else set()
+            for other in actions[place + 1 :]:
+                if isinstance(other, ast.Call) and last_name(other.func) == "DeclareLaunchArgument":
+                    name = text(argument(other, "name", 0))
+                    if name and name in asked:
+                        yield (
+                            other.lineno,
+                            f"{name} is declared here, behind the OpaqueFunction of line {action.lineno}, which asks "
+                            "for its value before that: DeclareLaunchArgument belongs above it in the list",
+                        )
+
+
 LOOKS = (
-    called_functions, functions_without_effect, never_added, events_that_never_come, too_late,
+    declared_too_late, called_functions, functions_without_effect, never_added, events_that_never_come, too_late,
     waited_for_and_never_started, long_waits, swapped_conditions,
 )  # fmt: skip

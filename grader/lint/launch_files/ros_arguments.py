@@ -1,4 +1,4 @@
-"""Commands that give a program ROS parameters without the word --ros-args, behind which alone ROS reads them.
+"""Commands that give a program ROS parameters that it does not read: without --ros-args, or undeclared.
 
 A remapping, -r FROM:=TO, works without it in its old form; a parameter does not.
 
@@ -8,10 +8,11 @@ Source: https://github.com/ros2/rcl, rcl/src/rcl/arguments.c
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
+from gz_course.grader.lint.launch_files.unread import OF_EVERY_NODE, declared_parameters
 
 PARAMETER = ("-p", "--param")
 GROWS = ("append", "extend", "insert")
@@ -35,6 +36,30 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
                     "belong to the program, and ROS does not read them",
                 )
                 break
+
+
+def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+    """Find `-p NAME:=VALUE` for a program of the submission that declares parameters of other names only."""
+    owners = _functions_of(file)
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
+        names = {text(each).rpartition("/")[2] for word in words if word for each in ast.walk(word)}
+        program = next(iter(sorted(names & nodes.keys())), "")
+        known = declared_parameters(nodes[program]) if program else set()
+        for before, word in pairwise(words) if known else ():
+            if before is None or word is None or text(before) not in PARAMETER:
+                continue
+            first = word.values[0] if isinstance(word, ast.JoinedStr) and word.values else word
+            while isinstance(first, ast.BinOp):
+                first = first.left
+            name, assigns, _ = text(first).partition(":=")
+            if assigns and name not in known | OF_EVERY_NODE and name.isidentifier():
+                yield (
+                    word.lineno,
+                    f"{program} declares no parameter {name}, so nobody reads this one; it declares "
+                    f"{', '.join(sorted(known))}",
+                )
 
 
 def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:

@@ -64,7 +64,7 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
         for part in (file.value(each.value) for each in call.keywords):
             words |= {text(each).rpartition("/")[2] for each in ast.walk(part)} if part is not None else set()
         program = next(iter(sorted(words & nodes.keys())), "")
-        known = _declared(nodes[program]) if program else set()
+        known = declared_parameters(nodes[program]) if program else set()
         for name, line in _given(file, call):
             if _near_sim_time(name) and name.encode() not in nodes.get(program, b""):
                 yield line, f"no node has a parameter {name}: the one that turns simulated time on is use_sim_time"
@@ -82,7 +82,7 @@ def _near_sim_time(name: str) -> bool:
     return name != "use_sim_time" and bool(nearest_name(name.lower(), ["use_sim_time"], 0.75))
 
 
-def _declared(content: bytes) -> set[str]:
+def declared_parameters(content: bytes) -> set[str]:
     """Return the parameters that a program declares; none if that is not known."""
     try:
         tree = ast.parse(content)

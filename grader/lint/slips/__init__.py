@@ -25,6 +25,7 @@ from gz_course.grader.lint.slips import (
     never_set,
     no_effect,
     no_time_passed,
+    none_tests,
     not_what_they_seem,
     parameters,
     publishers,
@@ -59,8 +60,7 @@ ROOMS = (
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
-    endless_spins.LOOKS,
-    rates.LOOKS,
+    endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
 )  # fmt: skip
 
 

@@ -1,11 +1,11 @@
-"""Endless loops around spin() that go on after Ctrl-C, because what ends them is caught inside."""
+"""Loops around spin() that go on after Ctrl-C, and programs that spin once, or not at all."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, called
+from gz_course.grader.lint.syntax import Place, called, calls
 
 ENDS = frozenset({"BaseException", "KeyboardInterrupt"})
 LEAVES = ast.Break | ast.Return | ast.Raise
@@ -45,4 +45,32 @@ def _asks_whether_ok(loop: ast.While) -> bool:
     return any("ok" in called(test) for test in tests)
 
 
-LOOKS = (never_ends,)
+def spins_too_little(tree: ast.AST) -> Iterator[Place]:
+    """Find a program with callbacks that calls spin_once() outside of every loop, or nothing that spins."""
+    names = called(tree)
+    made = [call for call, name in calls(tree) if name in ("create_timer", "create_subscription")]
+    programs = "init" in names and made
+    if not programs or any(name.startswith("spin") and name != "spin_once" for name in names):
+        return
+    if "spin_once" not in names:
+        if "spin" not in ast.unparse(tree):
+            yield (
+                made[0].lineno,
+                "nothing in this file spins the node, so this callback never runs: rclpy.spin(node) comes after the "
+                "node is made",
+            )
+        return
+    loops = [node for node in ast.walk(tree) if isinstance(node, ast.While | ast.For)]
+    looped = {name for loop in loops for name in called(loop)}
+    spinning = {
+        node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and "spin_once" in called(node)
+    }
+    if not looped & (spinning | {"spin_once"}):
+        yield (
+            next(call.lineno for call, name in calls(tree) if name == "spin_once"),
+            "spin_once() waits for one event and returns, so the program ends after the first: rclpy.spin(node) stays "
+            "until Ctrl-C",
+        )
+
+
+LOOKS = (never_ends, spins_too_little)

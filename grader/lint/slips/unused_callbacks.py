@@ -37,11 +37,8 @@ def _mentioned(tree: ast.AST) -> set[str]:
     """Return all names that are read in a file, and the texts in it, by which getattr() may find a method."""
     found = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     found |= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    return found | {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and _is_text(node)}
-
-
-def _is_text(node: ast.Constant) -> bool:
-    return isinstance(node.value, str)
+    constants = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    return found | {value for value in constants if isinstance(value, str)}
 
 
 def _set_here_alone(method: Function, methods: list[Function], tree: ast.AST) -> str:

@@ -75,4 +75,16 @@ def added_positions(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
-LOOKS = (gap_minus_distance, drives_when_near, added_positions)
+def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a speed that int() or // makes a whole number."""
+    for _, value in _speeds(tree):
+        whole = [node for node in ast.walk(value) if isinstance(node, ast.Call) and ast.unparse(node.func) == "int"]
+        if whole or any(isinstance(node, ast.FloorDiv) for node in ast.walk(value)):
+            yield (
+                value.lineno,
+                "whole_speed",
+                f"{ast.unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0",
+            )
+
+
+LOOKS = (whole_speeds, gap_minus_distance, drives_when_near, added_positions)

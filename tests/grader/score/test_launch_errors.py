@@ -46,6 +46,7 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("LaunchConfiguration.perform() missing 1 required positional argument: 'context'", "OpaqueFunction"),
         ("PackageNotFoundError: package 'my_bringup' not found, searching: ['/x']", "Path(__file__).parent"),
         ("package 'ros_gz_bridges' not found, searching: ['/x']; did you mean 'ros_gz_bridge'?", ""),
+        ("-0.0 is of type float; text, a substitution or a list of them is expected here", "str(...) of a number"),
         ("False is of type bool; text, a substitution or a list of them is expected here", "in quotes"),
         ("the Python expression 'not false' fails with NameError: name 'false' is not defined; text", "IfCondition"),
         (

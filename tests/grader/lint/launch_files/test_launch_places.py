@@ -301,3 +301,9 @@ def test_a_parameter_file_may_hold_simulated_time(parameters, sim_time):
     node = f"watch = Node(executable=str(HERE / 'watch.py'), parameters={parameters})\n    "
     (place,) = launch_places((RIGHT[:begin] + node + RIGHT[end:]).encode())["programs"]
     assert place["sim_time"] == sim_time
+
+
+def test_an_argument_that_is_declared_behind_the_function_that_asks_for_it():
+    declared = '        DeclareLaunchArgument("paused", default_value="false"),\n'
+    late = RIGHT.replace(declared, "").replace("function=later),\n", f"function=later),\n{declared}")
+    assert "paused is declared here, behind the OpaqueFunction" in slips(late)[0]

@@ -58,3 +58,10 @@ def test_a_process_in_a_group_gets_no_namespace():
     )
     assert "reaches Node actions only" in slips(wrong)[0]
     assert slips(LAUNCH.replace('f"front/odom:=', 'f"/front/odom:='), NODE.replace('"front', '"/front')) == []
+
+
+def test_a_return_inside_of_the_loop():
+    loop = "def convoy(context):\n    actions = []\n    for i in range(3):\n        actions.append(follower(i))\n"
+    text = LAUNCH[: LAUNCH.index("def convoy")] + loop
+    assert slips(text + "    return actions\n") == []
+    assert "ends in its first iteration" in slips(text + "        return actions\n")[0]

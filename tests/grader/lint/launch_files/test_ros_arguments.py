@@ -31,3 +31,14 @@ def follower(number, *more):
 def test_parameters_without_ros_args(command, found):
     slips = launch_places(LAUNCH.replace("COMMAND", command).encode())["launch_slips"]
     assert any("--ros-args is missing before -p" in each["said"] for each in slips) == found
+
+
+def test_a_parameter_that_the_program_does_not_declare():
+    command = 'command = ["python3", "a.py", "--ros-args", *names, *parameters]'
+
+    def said(node):
+        slips = launch_places(LAUNCH.replace("COMMAND", command).encode(), {"a.py": node})["launch_slips"]
+        return " ".join(each["said"] for each in slips)
+
+    assert "a.py declares no parameter gap" in said(b"node.declare_parameter('distance', 1.2)")
+    assert "declares no" not in said(b"node.declare_parameter('gap', 1.2)") + said(b"pass")

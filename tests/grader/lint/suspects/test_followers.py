@@ -28,6 +28,7 @@ class Follower(Node):
         ("distance - self.gap", "self.gap - distance", "gap", "the distance minus the gap"),
         ("error > 0.02", "error < 0.02", "gap", "drives only where error < 0.02"),
         ("error > 0.02", "0.02 > error", "gap", "does not hold where it is behind"),
+        ("= 1.5 * error", "= float(int(1.5 * error))", "whole_speed", "every speed below 1 m/s is 0"),
         ("self.front_x = m", "self.front_x += m", "gap", "grows by the whole position"),
         (
             "        self.front_x = m",
