@@ -71,7 +71,11 @@ def commands_go_to_gazebo(recording, parameters):
     if bridge.direction != "ROS_TO_GZ":
         return Finding(False, expected, f"{bridge.place}: /cmd_vel goes the wrong way, {bridge.direction}")
     if bridge.ros_type != "geometry_msgs/msg/Twist" or bridge.gz_type != "gz.msgs.Twist":
-        return Finding(False, expected, f"{bridge.place}: the types are {bridge.ros_type} and {bridge.gz_type}")
+        measured = (
+            f"{bridge.place}: the types of /cmd_vel are {bridge.ros_type} and {bridge.gz_type} here; in this system "
+            "they are geometry_msgs/msg/Twist and gz.msgs.Twist"
+        )
+        return Finding(False, expected, measured)
     return Finding(True, expected, "so it is")
 
 

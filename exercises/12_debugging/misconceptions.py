@@ -85,11 +85,11 @@ def of_a_driver(distance, speed, wanted):
     if abs(wanted + FRONT - DEFAULT) > CLOSE and _drives(speed, left - FRONT):
         return "the distance is taken from the front of the cart, and it is asked for from base_link"
     if (other := _aim(distance, speed)) is not None and abs(other - wanted) > CLOSE:
-        default = ": stop_at has its default there" if abs(other - DEFAULT) < CLOSE / 2 else ""
-        return (
-            f"the commands drive the cart to {other:.2f} m from the wall, not to the {wanted:g} m that stop_at "
-            f"says{default}"
-        )
+        why = ": stop_at has its default there" if abs(other - DEFAULT) < CLOSE / 2 else ""
+        if abs(other - int(wanted)) < CLOSE / 2 and wanted > int(wanted):
+            why = ", which has lost its fraction, as by int()"
+        aim = f"the commands drive the cart to {other:.2f} m from the wall"
+        return f"{aim}, not to the {wanted:g} m that stop_at says{why}"
     before = speed[: np.flatnonzero(np.abs(speed) > STANDS)[-1]]  # it comes to rest
     still = np.mean(np.abs(before) <= STANDS) if len(before) >= FEWEST else 0.0
     if still > 0.2:

@@ -73,6 +73,7 @@ def test_the_distance_to_the_wall(measured, words):
         (driven(DISTANCE, np.sign(DISTANCE - 1.0)), "it does not fall"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "to 1.00 m from the wall, not to the 0.7 m that stop_at"),
         (driven(DISTANCE[:3], DISTANCE[:3]), ""),
+        ((*driven(DISTANCE, DISTANCE, gain=0.4)[:2], 0.8), "which has lost its fraction"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: stop_at has its default there"),
     ],
 )
@@ -137,7 +138,8 @@ BRIDGE = {
 
 
 @pytest.mark.parametrize(
-    ("gz_topic", "words"), [("/cmd_vel", "line 11: ros_topic_name and gz_topic_name are exchanged"), ("/x", "in ROS, it")]
+    ("gz_topic", "words"),
+    [("/cmd_vel", "line 11: ros_topic_name and gz_topic_name are exchanged"), ("/x", "in ROS, it")],
 )
 def test_names_of_the_commands_that_are_exchanged(gz_topic, words):
     recording = SimpleNamespace(facts=lambda: {"bridges": [BRIDGE | {"gz_topic": gz_topic}]})

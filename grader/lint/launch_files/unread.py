@@ -17,7 +17,6 @@ INCLUDED = frozenset({"gz_args", "gz_version", "ign_args", "ign_version", "debug
 OF_EVERY_NODE = frozenset({"use_sim_time", "start_type_description_service"})
 
 
-
 def arguments_unread(file: LaunchFile) -> Iterator[Place]:
     """Find an argument that is declared, and whose value nothing asks for in a file that asks for that of another."""
     read, unknown = set[str](), False
