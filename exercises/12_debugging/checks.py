@@ -28,6 +28,8 @@ def _ends(recording, kind, type=None, topic=None):
 def time_runs(recording, parameters):
     expected = "a simulator that runs from its start, with -r"
     ran = [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
+    if not ran and recording.ended_s > 0:
+        return Finding(False, expected, f"gz sim ended by itself after {recording.ended_s:.1f} s of simulated time")
     if not ran:
         errors = [each["error"] for each in launch_facts(recording).get("simulators", []) if each["error"]]
         said = errors[0] if errors else complaint(recording, "gz sim")

@@ -177,3 +177,8 @@ def test_a_suspect_is_that_of_its_file():
     recording = SimpleNamespace(facts=lambda: facts)
     assert CHECKS["_suspects"](recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
     assert CHECKS["_suspects"](recording, "driver_node.py", "age") == ""
+
+
+def test_a_simulator_that_ends_by_itself_has_run():
+    recording = SimpleNamespace(facts=lambda: {"launch": {"simulators": [{"ran": False}]}}, ended_s=4.0)
+    assert "ended by itself after 4.0 s" in CHECKS["time_runs"](recording, {}).measured
