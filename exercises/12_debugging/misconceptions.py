@@ -90,6 +90,12 @@ def of_a_driver(distance, speed, wanted):
             why = ", which has lost its fraction, as by int()"
         aim = f"the commands drive the cart to {other:.2f} m from the wall"
         return f"{aim}, not to the {wanted:g} m that stop_at says{why}"
+    past = left < -CLOSE
+    if past.sum() >= FEWEST and np.min(speed[past]) > STANDS:
+        return (
+            f"it drives on, with {np.min(speed[past]):.2f} m/s or more, where the wall is nearer than the {wanted:g} m "
+            "that stop_at says: the speed must fall to 0 there"
+        )
     before = speed[: np.flatnonzero(np.abs(speed) > STANDS)[-1]]  # it comes to rest
     still = np.mean(np.abs(before) <= STANDS) if len(before) >= FEWEST else 0.0
     if still > 0.2:
