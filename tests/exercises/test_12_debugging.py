@@ -73,9 +73,10 @@ def test_the_distance_to_the_wall(measured, words):
         (driven(DISTANCE, np.sign(DISTANCE - 1.0)), "it does not fall"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "to 1.00 m from the wall, not to the 0.7 m that stop_at"),
         (driven(DISTANCE[:3], DISTANCE[:3]), ""),
+        ((DISTANCE, np.full(60, 0.6), 1.2), "every command is 0.60 m/s, however far the wall is"),
         ((DISTANCE, np.clip(1.5 * (DISTANCE - 1.2), 0.1, 0.6), 1.2), "it drives on, with 0.10 m/s or more, where"),
         ((*driven(DISTANCE, DISTANCE, gain=0.4)[:2], 0.8), "which has lost its fraction"),
-        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: stop_at has its default there"),
+        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: that is its default, and"),
     ],
 )
 def test_the_commands(given, words):
