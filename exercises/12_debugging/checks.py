@@ -28,6 +28,8 @@ def _ends(recording, kind, type=None, topic=None):
 def time_runs(recording, parameters):
     expected = "a simulator that runs from its start, with -r"
     ran = [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
+    if not ran and recording.ended_s > 0:
+        return Finding(False, expected, f"gz sim ended by itself after {recording.ended_s:.1f} s of simulated time")
     if not ran:
         errors = [each["error"] for each in launch_facts(recording).get("simulators", []) if each["error"]]
         said = errors[0] if errors else complaint(recording, "gz sim")
@@ -71,7 +73,11 @@ def commands_go_to_gazebo(recording, parameters):
     if bridge.direction != "ROS_TO_GZ":
         return Finding(False, expected, f"{bridge.place}: /cmd_vel goes the wrong way, {bridge.direction}")
     if bridge.ros_type != "geometry_msgs/msg/Twist" or bridge.gz_type != "gz.msgs.Twist":
-        return Finding(False, expected, f"{bridge.place}: the types are {bridge.ros_type} and {bridge.gz_type}")
+        measured = (
+            f"{bridge.place}: the types of /cmd_vel are {bridge.ros_type} and {bridge.gz_type} here; in this system "
+            "they are geometry_msgs/msg/Twist and gz.msgs.Twist"
+        )
+        return Finding(False, expected, measured)
     return Finding(True, expected, "so it is")
 
 

@@ -82,13 +82,25 @@ def of_a_driver(distance, speed, wanted):
     away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
     if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
         return "the sign of linear.x is wrong: it drives away from the wall"
+    if np.ptp(speed) < STANDS and np.ptp(distance) > 4 * CLOSE:
+        return f"every command is {speed[-1]:.2f} m/s, however far the wall is: it does not fall as the wall comes near"
     if abs(wanted + FRONT - DEFAULT) > CLOSE and _drives(speed, left - FRONT):
         return "the distance is taken from the front of the cart, and it is asked for from base_link"
     if (other := _aim(distance, speed)) is not None and abs(other - wanted) > CLOSE:
-        default = ": stop_at has its default there" if abs(other - DEFAULT) < CLOSE / 2 else ""
+        why = (
+            ": that is its default, and the value that was given is not used"
+            if abs(other - DEFAULT) < CLOSE / 2
+            else ""
+        )
+        if abs(other - int(wanted)) < CLOSE / 2 and wanted > int(wanted):
+            why = ", which has lost its fraction, as by int()"
+        aim = f"the commands drive the cart to {other:.2f} m from the wall"
+        return f"{aim}, not to the {wanted:g} m that stop_at says{why}"
+    past = left < -CLOSE
+    if past.sum() >= FEWEST and np.min(speed[past]) > STANDS:
         return (
-            f"the commands drive the cart to {other:.2f} m from the wall, not to the {wanted:g} m that stop_at "
-            f"says{default}"
+            f"it drives on, with {np.min(speed[past]):.2f} m/s or more, where the wall is nearer than the {wanted:g} m "
+            "that stop_at says: the speed must fall to 0 there"
         )
     before = speed[: np.flatnonzero(np.abs(speed) > STANDS)[-1]]  # it comes to rest
     still = np.mean(np.abs(before) <= STANDS) if len(before) >= FEWEST else 0.0
@@ -99,7 +111,11 @@ def of_a_driver(distance, speed, wanted):
         )
     driven = speed[np.abs(speed) > STANDS]
     if np.ptp(driven) < STANDS:
-        return f"the command is {driven[-1]:.2f} m/s or nothing: it does not fall as the wall comes near"
+        nearest = np.min(distance[np.abs(speed) > STANDS])
+        return (
+            f"the command is {driven[-1]:.2f} m/s, and nothing from {nearest:.2f} m on: it does not fall as the wall "
+            "comes near"
+        )
     if abs(speed[-1]) > 2 * STANDS and left[-1] * speed[-1] > 0:
         return (
             f"it is still on its way: the last command is {speed[-1]:.2f} m/s with {abs(left[-1]):.2f} m left; it is "

@@ -73,7 +73,10 @@ def test_the_distance_to_the_wall(measured, words):
         (driven(DISTANCE, np.sign(DISTANCE - 1.0)), "it does not fall"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.7), "to 1.00 m from the wall, not to the 0.7 m that stop_at"),
         (driven(DISTANCE[:3], DISTANCE[:3]), ""),
-        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: stop_at has its default there"),
+        ((DISTANCE, np.full(60, 0.6), 1.2), "every command is 0.60 m/s, however far the wall is"),
+        ((DISTANCE, np.clip(1.5 * (DISTANCE - 1.2), 0.1, 0.6), 1.2), "it drives on, with 0.10 m/s or more, where"),
+        ((*driven(DISTANCE, DISTANCE, gain=0.4)[:2], 0.8), "which has lost its fraction"),
+        ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: that is its default, and"),
     ],
 )
 def test_the_commands(given, words):
@@ -176,3 +179,8 @@ def test_a_suspect_is_that_of_its_file():
     recording = SimpleNamespace(facts=lambda: facts)
     assert CHECKS["_suspects"](recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
     assert CHECKS["_suspects"](recording, "driver_node.py", "age") == ""
+
+
+def test_a_simulator_that_ends_by_itself_has_run():
+    recording = SimpleNamespace(facts=lambda: {"launch": {"simulators": [{"ran": False}]}}, ended_s=4.0)
+    assert "ended by itself after 4.0 s" in CHECKS["time_runs"](recording, {}).measured

@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.kinds.bridge import read
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
@@ -59,7 +60,17 @@ def _places(submission: Submission, duration: float) -> dict[str, list[dict[str,
             )
             for kind, each in places.items():
                 found.setdefault(kind, []).extend({"file": shown(name)} | place for place in each)
+        elif name.endswith((".yaml", ".yml")) and name != submission.main:
+            found.setdefault("launch_slips", []).extend(
+                {"file": shown(name)} | place for place in _twice(name, content)
+            )
     return {kind: places for kind, places in found.items() if places}
+
+
+def _twice(name: str, content: bytes) -> list[dict[str, Any]]:
+    """Return `line` and `said` of the first key that stands twice in one entry of a bridge's file."""
+    found = [each for each in read(name, content).findings if "is given twice" in each.sentence][:1]
+    return [{"line": int(each.place.rpartition(":")[2]), "said": shown(each.sentence)} for each in found]
 
 
 def command(program: Path, trial: Trial) -> list[str]:

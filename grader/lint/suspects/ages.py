@@ -61,14 +61,22 @@ def _older(test: ast.expr, values: dict[str, list[ast.expr]]) -> bool | None:
 def _is_age(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bool:
     """Return whether an expression is the time now less that of a stamp."""
     for each in ast.walk(node):
-        if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub) and "now" in ast.unparse(each.left):
-            if "stamp" in ast.unparse(each.right):
-                return True
+        if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub):
+            return _reads(each.left, "now", values, steps) and _reads(each.right, "stamp", values, steps)
         if isinstance(each, ast.Name | ast.Attribute) and steps:
             given = values.get(ast.unparse(each), [])
             if len(given) == 1 and _is_age(given[0], values, steps - 1):
                 return True
     return False
+
+
+def _reads(node: ast.expr, name: str, values: dict[str, list[ast.expr]], steps: int) -> bool:
+    """Return whether an expression has an attribute of that name, also by the names in it."""
+    parts = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    if any(isinstance(each, ast.Attribute) and each.attr == name for each in parts):
+        return True
+    given = [value for each in parts for value in values.get(ast.unparse(each), ())]
+    return steps > 0 and any(_reads(each, name, values, steps - 1) for each in given)
 
 
 def _acts(body: list[ast.stmt]) -> bool:

@@ -124,11 +124,14 @@ def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any])
     if bridge.gz_topic.endswith((",", ";")):
         end = bridge.gz_topic[-1]
         return f"nobody in Gazebo {does} {bridge.gz_topic}: in YAML, the {end} at the end is a part of the name"
-    if bridge.to_ros and not gz and does == "publishes":  # the run of a launch file has no graph of Gazebo
-        return f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}"
     near = nearest_name(bridge.gz_topic, [wanted["gz_topic"]], 0.9)
     typo = "it is nearly right, look at its spelling: " if near else ""
     name = ", which is its name in ROS" if bridge.gz_topic == wanted["ros_topic"] else ""
+    if not gz and not typo and not name and does == "publishes":  # of a launch, Gazebo's graph is not known
+        return (
+            f"{bridge.gz_topic} is not the Gazebo topic that belongs to {bridge.ros_topic}; gz topic -l lists the "
+            "topics there are, and gz topic -i -t NAME says what a topic carries"
+        )
     return f"nobody in Gazebo {does} {bridge.gz_topic}{name}; {typo}gz topic -l lists the topics there are"
 
 

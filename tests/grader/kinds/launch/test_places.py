@@ -32,3 +32,13 @@ def test_the_places_of_every_file_are_recorded_with_its_name(record):
         "bringup.launch.py, line 7",
         "driver_node.py, line 1",
     ]
+
+
+def test_entries_of_a_bridge_without_a_dash_between_them_are_a_mistake():
+    entry = "ros_topic_name: {0}\n  gz_topic_name: {0}\n  direction: GZ_TO_ROS\n"
+    for dash, lines in (("- ", []), ("  ", [4])):
+        text = "- " + entry.format("/clock") + dash + entry.format("/scan")
+        files = {"bringup.launch.py": b"", "bridge.yaml": text.encode()}
+        facts = plan(find_exercise("12"), Submission(Path(), "bringup.launch.py", "", files=files)).facts
+        found = facts.get("launch_slips", [])
+        assert [each["line"] for each in found] == lines and all("a dash is missing" in each["said"] for each in found)

@@ -15,7 +15,9 @@ def on_scan(self, scan):
 
 def drive(self):
     command = Twist()
-    waited = self.get_clock().now() - self.wall.header.stamp
+    sent = Time.from_msg(self.wall.header.stamp)
+    now = self.get_clock().now()
+    waited = now - sent
     if self.wall is not None and waited < OLDEST:
         command.linear.x = GAIN * self.wall.range
     self.publisher.publish(command)

@@ -107,6 +107,12 @@ def test_a_topic_that_names_its_world_exists_in_that_world_only(found):
     assert not finding.passed and "exists only in the world called bay" in finding.measured, finding.measured
 
 
+def test_without_the_graph_of_gazebo_nobody_is_said_to_publish_nothing(record):
+    recording = record(facts={"bridges": [CLOCK | {"gz_topic": "/stats"}], "endpoints": []})
+    finding = bridged(recording, Table({key: CLOCK[key] for key in KEYS} | {"at_least": 10}, "check 'it'"))
+    assert "/stats is not the Gazebo topic that belongs to /clock" in finding.measured, finding.measured
+
+
 def test_messages_of_another_topic_must_not_arrive_at_the_same_place(found):
     other = SCAN | {"source": "bridge.yaml:20", "gz_topic": "/lidar2"}
     mixed = found(SCAN, other)
