@@ -25,6 +25,7 @@ from gz_course.grader.lint.slips import (
     no_effect,
     no_time_passed,
     not_what_they_seem,
+    one_array,
     parameters,
     publishers,
     resets,
@@ -56,6 +57,7 @@ ROOMS = (
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
+    one_array.LOOKS,
 )  # fmt: skip
 
 

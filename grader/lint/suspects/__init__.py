@@ -17,6 +17,7 @@ from gz_course.grader.lint.suspects import (
     drives,
     farthest,
     feedback,
+    forgetting,
     goals,
     gyroscopes,
     headings,
@@ -30,6 +31,7 @@ from gz_course.grader.lint.suspects import (
     same_places,
     sleeps,
     smoothing,
+    straight_goals,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -56,6 +58,8 @@ LOOKS = (
     *ways.LOOKS,
     *oldest.LOOKS,
     *sleeps.LOOKS,
+    *forgetting.LOOKS,
+    *straight_goals.LOOKS,
 )
 MOST = 20  # suspects kept
 
