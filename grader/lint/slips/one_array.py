@@ -26,8 +26,8 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
             if len(both) > 1 and (_makes(node.value) or ast.unparse(node.value) in made):
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:70]} gives one array two names, so what is added to {both[0]} is in {both[1]}, "
-                    "too: make each of its own",
+                    f"{ast.unparse(node)[:70]} gives one array two names, so what is added to {both[0]} is in "
+                    f"{both[1]}, too: make each of its own",
                 )
 
 

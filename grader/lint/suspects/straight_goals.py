@@ -1,4 +1,4 @@
-"""Suspects in goals that are chosen by their distance in a straight line, in a file that draws a map and searches no way."""
+"""Suspects in goals that are the nearest in a straight line, in a file that draws a map and searches no way."""
 
 from __future__ import annotations
 

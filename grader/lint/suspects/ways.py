@@ -92,9 +92,11 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
             )
             calls_planner = planners & called(node)
             # Whatever changes the way anywhere but where it is planned may take cells out of it.
-            inside = in_test | there | {
-                id(each) for one in functions(owner) if one.name == "__init__" for each in ast.walk(one)
-            }
+            inside = (
+                in_test
+                | there
+                | {id(each) for one in functions(owner) if one.name == "__init__" for each in ast.walk(one)}
+            )
             others = [
                 target
                 for target, _ in assigned(owner)
