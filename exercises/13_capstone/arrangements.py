@@ -1,10 +1,11 @@
-"""Common mistakes with the place of a cell in a map, and the map as it is without each; `checks.py` asks for it."""
+"""Common mistakes with the place and the value of a cell in a map, and the map as it is without each; `checks.py` asks for it."""
 
 import numpy as np
 
 from gz_course.grader.score.floor import Grid
 
 RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM = 0.1, 100, 80, -5.0, -4.0  # [m], [cells], [cells], [m], [m]
+OCCUPIED, FREE = 65, 25  # at least, at most
 GRID = Grid(RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM)
 
 
@@ -41,6 +42,33 @@ def strided(data):
     row, column = np.divmod(np.arange(len(data)), WIDTH)
     place = np.minimum(row * HEIGHT + column, len(data) - 1)
     return data[place].reshape(HEIGHT, WIDTH)
+
+
+def wrong_values(said, fits):
+    """Return what is wrong with the numbers in a map whose walls are in the right places; empty if nothing is."""
+    most = said.max()
+    if 0 < most < OCCUPIED and fits(said == most):
+        return f"the walls of your map have the value {most:g}: an occupied cell is 100"
+    if fits((said >= 0) & (said <= FREE)):
+        return "occupied and free are exchanged: 100 is occupied, 0 is free"
+    if most <= 0 and fits(said < 0):
+        return "the walls of your map have the value -1, which is unknown: an occupied cell is 100"
+    return ""
+
+
+def moved(marked, solid):
+    """Yield by how many cells the walls of a map are beside those that stand there, and the map without it."""
+    shifts = [(x, y) for x in range(-4, 5) for y in range(-4, 5) if x or y]
+    x, y = max(
+        shifts, key=lambda by: (solid[np.roll(marked, (-by[1], -by[0]), (0, 1))].mean(), -abs(by[0]) - abs(by[1]))
+    )
+    yield (
+        (
+            f"all walls of your map are about {x} cells too far along x and {y} along y: the column of a point is "
+            "floor((x + 5) / 0.1), its row floor((y + 4) / 0.1)"
+        ),
+        np.roll(marked, (-y, -x), (0, 1)),
+    )
 
 
 def scaled(points):

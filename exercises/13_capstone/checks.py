@@ -344,7 +344,7 @@ def why(recording, said, scan):
         number = cells_of_walls.sum()
         return number >= FEWEST and solid[cells_of_walls].mean() >= FITS and grown(cells_of_walls)[hit].mean() >= FITS
 
-    if words := wrong_values(said, fits):
+    if words := ARRANGED.wrong_values(said, fits):
         return words
     if marked.sum() < FEWEST:
         drawn = said != np.median(said)
@@ -361,6 +361,9 @@ def why(recording, said, scan):
         *DRIVING.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION),
     ):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
+            return words
+    for words, changed in ARRANGED.moved(marked, solid):
+        if solid[changed].mean() >= TRUE > 0.85 > solid[marked].mean():
             return words
     words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
     if words := words or DRIVING.suspect(recording, "counter", "pose"):
@@ -390,16 +393,4 @@ def drawn_elsewhere(recording):
             if share >= FITS and share > best and back >= BACK:
                 best, words = share, each
         return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
-    return ""
-
-
-def wrong_values(said, fits):
-    """Return what is wrong with the numbers in a map whose walls are in the right places; empty if nothing is."""
-    most = said.max()
-    if 0 < most < OCCUPIED and fits(said == most):
-        return f"the walls of your map have the value {most:g}: an occupied cell is 100"
-    if fits((said >= 0) & (said <= FREE)):
-        return "occupied and free are exchanged: 100 is occupied, 0 is free"
-    if most <= 0 and fits(said < 0):
-        return "the walls of your map have the value -1, which is unknown: an occupied cell is 100"
     return ""

@@ -68,8 +68,8 @@ def sideways(recording):
         return ""
     never = " (angular.z is 0 in every command)" if not np.abs(turning).max() > 0.01 else ""
     return (
-        f"linear.y is up to {np.abs(aside).max():.2f} m/s, but a robot on two wheels cannot drive sideways: linear.x is "
-        f"straight ahead for the robot, whichever way it looks, and angular.z turns it{never}"
+        f"linear.y is up to {np.abs(aside).max():.2f} m/s, but a robot on two wheels cannot drive sideways: linear.x "
+        f"is straight ahead for the robot, whichever way it looks, and angular.z turns it{never}"
     )
 
 
@@ -96,10 +96,7 @@ def slow_or_lost(recording):
     if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
         return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
-        return (
-            f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m: nothing leads it to what "
-            "its map does not know yet"
-        )
+        return f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m, to and fro"
     return ""
 
 
@@ -165,8 +162,8 @@ def touched(recording, radius, at, place, there=""):
     if abs(bearing) > AHEAD:
         side = "left" if bearing > 0 else "right"
         return (
-            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead{more}: the way that "
-            f"it took leaves less room than the robot's radius, {radius:g} m"
+            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead{more}: the way "
+            f"that it took leaves less room than the robot's radius, {radius:g} m"
         )
     return f"it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time{more}"
 
@@ -238,6 +235,11 @@ def walls_missing(said, wanted, before, said_of=""):
     if before is not None:
         lost = before & ~grown(said >= 65)
         if lost.sum() >= 20 and lost.sum() > 0.2 * before.sum():
+            if not said_of and ((said[lost] >= 0) & (said[lost] <= 25)).mean() > 0.6:
+                return (
+                    "walls that were in earlier maps are free in the last one: rays that pass a cell, or end in it, "
+                    "make it free again; a hit must count for more than they do"
+                )
             words = said_of or "each scan must be added to what is known, not replace it"
             return f"walls that were in earlier maps are gone: {words}"
     if ((values >= 0) & (values <= 25)).mean() > 0.4:

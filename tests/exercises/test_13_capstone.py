@@ -151,6 +151,20 @@ def test_walls_that_were_there_before():
     assert "each scan must be added" in DRIVING.walls_missing(said, wanted, wanted)
 
 
+def test_walls_that_were_there_before_and_are_free_now():
+    said, wanted, _ = grids()
+    said[wanted] = 0
+    assert "a hit must count for more" in DRIVING.walls_missing(said, wanted, wanted)
+
+
+def test_a_map_that_is_moved():
+    arranged = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
+    _, solid, _ = grids()
+    solid[20:60, 10] = True
+    ((words, changed),) = arranged.moved(np.roll(solid, (1, 2), (0, 1)), solid)
+    assert "2 cells too far along x and 1 along y" in words and (changed == solid).all()
+
+
 def test_cells_that_are_not_free():
     said, _, passed = grids()
     assert "most rays, or most scans, are left out" in DRIVING.not_free(said, passed, 0 * passed)

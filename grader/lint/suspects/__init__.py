@@ -32,6 +32,8 @@ from gz_course.grader.lint.suspects import (
     sleeps,
     smoothing,
     straight_goals,
+    turning_signs,
+    way_ends,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -60,6 +62,8 @@ LOOKS = (
     *sleeps.LOOKS,
     *forgetting.LOOKS,
     *straight_goals.LOOKS,
+    *way_ends.LOOKS,
+    *turning_signs.LOOKS,
 )
 MOST = 20  # suspects kept
 
