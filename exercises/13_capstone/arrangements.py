@@ -1,4 +1,4 @@
-"""Common mistakes with the place and the value of a cell in a map, and the map as it is without each; `checks.py` asks for it."""
+"""Common mistakes with the place and the value of a cell, and the map as it is without each, for `checks.py`."""
 
 import numpy as np
 

@@ -36,12 +36,12 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
             continue
         negative = isinstance(given, ast.UnaryOp) and isinstance(given.op, ast.USub)
         if negative == (side > 0) and (negative or isinstance(given, ast.Constant)):
+            goal, turn = ("left", "right") if side > 0 else ("right", "left")
             yield (
                 node.lineno,
                 "sign",
-                f"where {ast.unparse(test)}, the goal is on the {'left' if side > 0 else 'right'}, and angular.z "
-                f"becomes {ast.unparse(given)}, which turns the robot to the {'right' if side > 0 else 'left'}: away from its "
-                "goal; a positive angular.z turns to the left",
+                f"where {ast.unparse(test)}, the goal is on the {goal}, and angular.z becomes {ast.unparse(given)}, which "
+                f"turns the robot to the {turn}, away from its goal; a positive angular.z turns to the left",
             )
 
 
