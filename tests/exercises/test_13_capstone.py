@@ -228,3 +228,34 @@ def test_cells_by_another_factor():
     drawn = {words.split(":")[0]: np.argwhere(cells).tolist() for words, cells in arranged.scaled(points)}
     assert drawn["metres are taken for cells"] == [[5, 2]]
     assert drawn["the distance from the origin is multiplied by the resolution"] == [[0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [(100, "are occupied in the map: they are free"), (50, "values such as 50"), (-1, "all cells"), (0, "")],
+)
+def test_a_map_by_which_no_robot_can_drive(monkeypatch, value, words):
+    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    known = checks["not_as_it_was_seen"].__globals__
+    passed = np.zeros((80, 100), dtype=int)
+    passed[20:60, 20:60] = 9
+    monkeypatch.setitem(known, "walls_are_right", lambda *given: True)
+    monkeypatch.setitem(known, "hits", lambda *given: np.empty((0, 2)))
+    monkeypatch.setitem(known, "along", lambda *given: passed)
+    said = checks["not_as_it_was_seen"](recording(), np.where(passed, value, -1.0), SimpleNamespace(ends=3.0, hit=None))
+    assert words in said if words else said == ""
+
+
+def test_walls_in_a_wrong_place_are_no_walls_known_by_heart(monkeypatch):
+    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    known = checks["known_before"].__globals__
+    said = np.full((80, 100), -1.0)
+    said[10, 10:90] = 100
+    hit = np.stack([np.arange(10, 90) / 10 - 4.95, np.full(80, 2.05)], 1)
+    monkeypatch.setitem(known, "grid", lambda *given: (said, 1.0))
+    monkeypatch.setitem(known, "scans", lambda *given: None)
+    monkeypatch.setitem(known, "shapes", lambda *given: Shapes([], []))
+    run = SimpleNamespace(arrays=lambda name: (np.zeros(1), []))
+    for points, by_heart in ((hit, False), (hit[:20], True)):
+        monkeypatch.setitem(known, "hits", lambda *given, points=points: points)
+        assert bool(checks["known_before"](run)) == by_heart

@@ -40,8 +40,8 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "sign",
-                f"where {ast.unparse(test)}, the goal is on the {goal}, and angular.z becomes {ast.unparse(given)}, which "
-                f"turns the robot to the {turn}, away from its goal; a positive angular.z turns to the left",
+                f"where {ast.unparse(test)}, the goal is on the {goal}, and angular.z becomes {ast.unparse(given)}, "
+                f"which turns the robot to the {turn}, away from its goal; a positive angular.z turns to the left",
             )
 
 
