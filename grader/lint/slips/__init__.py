@@ -15,6 +15,7 @@ from gz_course.grader.lint.slips import (
     angles,
     callbacks,
     conditions,
+    endless_waits,
     everyday,
     exact_sums,
     late_binding,
@@ -57,7 +58,7 @@ ROOMS = (
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
-    one_array.LOOKS,
+    one_array.LOOKS, endless_waits.LOOKS,
 )  # fmt: skip
 
 
