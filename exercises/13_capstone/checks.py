@@ -31,7 +31,9 @@ LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
 MOVED = 0.3  # [m]
 MARGIN = 0.003  # [m] between the robot and what it does not touch
 MAP = "topics/map"
-DRIVING = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("driving.py"))))
+DRIVING, ARRANGED = (
+    SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name)))) for name in ("driving.py", "arrangements.py")
+)
 
 
 def info(recording, name):
@@ -114,7 +116,9 @@ def walls(recording, parameters):
         return Finding(True, expected, measured)
     words = why(recording, said, scan) or behind_hits(recording, said, scans(recording, at))
     if not (words or layout(recording, parameters).explanation or known_before(recording)):
-        words = DRIVING.unclear(said, wanted) or DRIVING.walls_missing(said, wanted, earlier_walls(recording))
+        words = DRIVING.unclear(said, wanted) or DRIVING.walls_missing(
+            said, wanted, earlier_walls(recording), DRIVING.suspect(recording, "forgets")
+        )
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
@@ -160,7 +164,8 @@ def known_before(recording):
         marked = said >= OCCUPIED
         new = float((~grown(grown(hit)))[marked].mean())
         real = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
-        if new <= EARLY or real > EARLY:
+        # What is drawn in a wrong place has as many cells as were hit.
+        if new <= EARLY or real > EARLY or marked.sum() < 2 * hit.sum():
             return None
         words = "the map shows walls that the scanner had not seen, and they do not stand here: draw it from the scans"
         return f"{new:.0%} of the {marked.sum()} occupied cells of the map at {at:.1f} s", round(at, 3), words
@@ -199,7 +204,9 @@ def free(recording, parameters):
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
         words = DRIVING.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
-        fitting = (each for each, changed in rearranged(marked) if changed[passed].mean() >= FITS > share + 0.2)
+        fitting = (
+            each for each, changed in ARRANGED.rearranged(marked) if changed[passed].mean() >= FITS > share + 0.2
+        )
         words = next((f"your walls are right, but of your free cells {each}" for each in fitting), "")
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
@@ -244,7 +251,7 @@ def explored(recording, parameters):
         return Finding(True, expected, measured)
     driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
     turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
-    words = why(recording, said, every) if not walls_are_right(recording, said) else ""  # it drives by its map
+    words = not_as_it_was_seen(recording, said, every)  # it drives by its map
     if not words and not (said < 0).any():
         words = "no cell of the map is unknown, so nothing is left to explore: what no ray has passed yet is -1, not 0"
     if not words and driven < MOVED:
@@ -255,6 +262,25 @@ def explored(recording, parameters):
         words = DRIVING.slow_or_lost(recording) or standing(recording)
         words = words or "the robot did not come to every corner in time"
     return Finding(False, expected, measured, explanation=words)
+
+
+def not_as_it_was_seen(recording, said, every):
+    """Return what is wrong with a map by which a robot may drive; empty if it shows what was seen."""
+    if not walls_are_right(recording, said):
+        return why(recording, said, every)
+    hit = cells(hits(every)) > 0
+    passed = (along(every, 0, every.ends - 2 * RESOLUTION, every.hit) >= HITS) & ~hit
+    if passed.sum() < FEWEST:
+        return ""
+    values = said[passed]
+    if (values >= OCCUPIED).mean() > EARLY:
+        return f"{(values >= OCCUPIED).mean():.0%} of the cells that rays passed are occupied in the map: they are free"
+    if (values < 0).mean() > EARLY and (said < 0).mean() > 0.999:
+        return DRIVING.suspect(recording, "forgets") or "all cells of the map are unknown"
+    between = (values > FREE) & (values < OCCUPIED)
+    if between.mean() > EARLY:
+        return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"
+    return ""
 
 
 def standing(recording):
@@ -294,9 +320,17 @@ def touches_nothing(recording, parameters):
     name, at = names[int(distances[:, first].argmin())], float(x.times[first] / 1e9)
     words = f"the robot ran into {name} at {at:.1f} s, at ({x.values[first]:.1f}, {y.values[first]:.1f})"
     point = DRIVING.nearest_point(shapes(recording), (x.values[first], y.values[first]))
-    words += f"; {DRIVING.touched(recording, parameters['radius'], x.times[first], point)}"
+    there = map_at(recording, point, x.times[first])
+    words += f"; {DRIVING.touched(recording, parameters['radius'], x.times[first], point, there)}"
     measured = f"it touched something in {touching.sum()} of {len(touching)} moments"
     return Finding(False, expected, measured, round(at, 3), explanation=words)
+
+
+def map_at(recording, point, when):
+    """Return what the last map before a time [ns] shows at a point [m]; empty if there is none."""
+    number = int(np.sum(recording.arrays(f"{MAP}/data")[0] < when)) - 1
+    said, at = grid(recording, number) if number >= 0 else (None, 0.0)
+    return DRIVING.in_the_map(said, point, at) if said is not None else ""
 
 
 def why(recording, said, scan):
@@ -310,16 +344,26 @@ def why(recording, said, scan):
         number = cells_of_walls.sum()
         return number >= FEWEST and solid[cells_of_walls].mean() >= FITS and grown(cells_of_walls)[hit].mean() >= FITS
 
-    if words := wrong_values(said, fits):
+    if words := ARRANGED.wrong_values(said, fits):
         return words
     if marked.sum() < FEWEST:
-        return DRIVING.hardly_any(said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]])
-    for words, changed in rearranged(marked):
+        drawn = said != np.median(said)
+        for words, changed in ARRANGED.scaled(np.concatenate([hits(scan), scan.pose[:, :2]])):
+            if drawn.any() and grown(changed)[drawn].mean() > FITS and changed.sum() < 0.5 * hit.sum():
+                return words
+        return DRIVING.hardly_any(recording, said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]])
+    for words, changed in ARRANGED.rearranged(marked):
         if fits(changed):
             return words
     off_x, off_y = info(recording, "origin/position/x") - LEFT, info(recording, "origin/position/y") - BOTTOM
-    for words, changed in (*shifted(marked), *DRIVING.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION)):
+    for words, changed in (
+        *ARRANGED.shifted(marked),
+        *DRIVING.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION),
+    ):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
+            return words
+    for words, changed in ARRANGED.moved(marked, solid):
+        if solid[changed].mean() >= TRUE > 0.85 > solid[marked].mean():
             return words
     words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
     if words := words or DRIVING.suspect(recording, "counter", "pose"):
@@ -350,50 +394,3 @@ def drawn_elsewhere(recording):
                 best, words = share, each
         return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
     return ""
-
-
-def wrong_values(said, fits):
-    """Return what is wrong with the numbers in a map whose walls are in the right places; empty if nothing is."""
-    most = said.max()
-    if 0 < most < OCCUPIED and fits(said == most):
-        return f"the walls of your map have the value {most:g}: an occupied cell is 100"
-    if fits((said >= 0) & (said <= FREE)):
-        return "occupied and free are exchanged: 100 is occupied, 0 is free"
-    if most <= 0 and fits(said < 0):
-        return "the walls of your map have the value -1, which is unknown: an occupied cell is 100"
-    return ""
-
-
-def rearranged(marked):
-    """Yield common mistakes with rows and columns, and the map as it is without each."""
-    data = marked.ravel()
-    yield "rows and columns are exchanged: the place in data is row * width + column", data.reshape(WIDTH, HEIGHT).T
-    yield "rows and columns are exchanged: the place in data is row * width + column", transposed(marked)
-    yield "the y axis points down: the first row has the lowest y", marked[::-1]
-    yield "the x axis points backwards: within a row x grows", marked[:, ::-1]
-    yield "both axes are reversed: the first cell has the lowest x and y", marked[::-1, ::-1]
-    yield "rows have the wrong length: the place in data is row * width + column, with width 100", strided(data)
-
-
-def shifted(marked):
-    """Yield mistakes with the origin, and what can be seen of the map without each."""
-    shift = round(-BOTTOM / RESOLUTION), round(-LEFT / RESOLUTION)
-    quadrant = np.zeros_like(marked)
-    quadrant[shift[0] :, shift[1] :] = marked[: HEIGHT - shift[0], : WIDTH - shift[1]]
-    words = "the origin is ignored: the cell of a point is (point - origin) / resolution"
-    yield words, quadrant
-    yield words, np.roll(marked, shift, (0, 1))
-
-
-def transposed(marked):
-    """Return a map as it is if x had been taken for the row: cells [x, y], as far as both are in the map."""
-    out = np.zeros_like(marked)
-    out[:, :HEIGHT] = marked[:, :HEIGHT].T
-    return out
-
-
-def strided(data):
-    """Return a map as it is if the length of a row had been taken for 80."""
-    row, column = np.divmod(np.arange(len(data)), WIDTH)
-    place = np.minimum(row * HEIGHT + column, len(data) - 1)
-    return data[place].reshape(HEIGHT, WIDTH)

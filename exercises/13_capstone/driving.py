@@ -9,7 +9,17 @@ AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was d
 SLOW = 0.15  # [m/s]
 TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
-PLANNING = "sleep", "pose", "counter", "sign", "cell", "way", "search"  # suspects in how a way is found and followed
+PLANNING = (
+    "sleep",
+    "forgets",
+    "pose",
+    "counter",
+    "sign",
+    "cell",
+    "way",
+    "search",
+    "straight",
+)  # suspects in how a way is found and followed
 
 
 def other_origin(x, y, grid):
@@ -38,6 +48,8 @@ def stands(recording):
     ahead, turning = commands(recording)
     if not len(ahead):
         return "no command came on /cmd_vel"
+    if said := suspect(recording, "forgets") or sideways(recording):
+        return said
     tests = [f"line {each['line']}, `{each['code']}`" for each in recording.facts().get("before_speeds", [])]
     never = f"; one of the conditions before it never held: {'; '.join(tests[-2:])}" if tests else ""
     if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
@@ -48,6 +60,19 @@ def stands(recording):
     return ""
 
 
+def sideways(recording):
+    """Return that the robot is commanded to drive sideways; empty if it is not."""
+    aside = recording.signal("topics/cmd_vel/linear/y").values
+    _, turning = commands(recording)
+    if not len(aside) or np.mean(np.abs(aside) > 0.02) < 0.1:
+        return ""
+    never = " (angular.z is 0 in every command)" if not np.abs(turning).max() > 0.01 else ""
+    return (
+        f"linear.y is up to {np.abs(aside).max():.2f} m/s, but a robot on two wheels cannot drive sideways: linear.x "
+        f"is straight ahead for the robot, whichever way it looks, and angular.z turns it{never}"
+    )
+
+
 def slow_or_lost(recording):
     """Return why a robot that drove did not see all rooms; empty if that is not known."""
     ahead, _ = commands(recording)
@@ -56,6 +81,8 @@ def slow_or_lost(recording):
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
+    if aside := sideways(recording):
+        return aside
     planning = suspect(recording, *PLANNING)
     if turns > TURNS and way < 0.1 * seconds:
         said = planning or suspect(recording, "heading", "angle", "ray", "wrap") or how_it_turned(recording)
@@ -63,16 +90,13 @@ def slow_or_lost(recording):
     if len(ahead) and 0 < ahead.max() < SLOW:
         return f"linear.x was {ahead.max():.2f} m/s at most, too slow to see all rooms in {seconds:.0f} s"
     if way < 0.1 * seconds:
-        return f"the robot drove {way:.1f} m in {seconds:.0f} s: {planning or 'most of the time it stood or turned'}"
+        return f"the robot drove {way:.1f} m in {seconds:.0f} s: {planning or what_it_did(recording)}"
     if planning or suspect(recording, "wrap"):
         return planning or suspect(recording, "wrap")
     if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
         return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
-        return (
-            f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m: nothing leads it to what "
-            "its map does not know yet"
-        )
+        return f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m, to and fro"
     return ""
 
 
@@ -90,26 +114,58 @@ def how_it_turned(recording):
     return "it turned to and fro"
 
 
-def touched(recording, radius, at, place):
-    """Return how the robot came to touch something at a time [ns], whose nearest point is at `place` (x, y) [m]."""
+def what_it_did(recording):
+    """Return what a robot that drove little was commanded to do."""
+    ahead, turning = commands(recording)
+    if not len(ahead) or len(ahead) != len(turning):
+        return "most of the time it stood or turned"
+    times = recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    moves = np.flatnonzero((np.abs(ahead) > 0.01) | (np.abs(turning) > 0.01))
+    last = float(times[moves[-1]]) if len(moves) else 0.0
+    if last < 0.8 * times[-1]:
+        return f"all commands from {last:.0f} s on are 0, as if nothing were left to explore, or no way were found"
+    if np.mean((np.abs(ahead) < 0.01) & (np.abs(turning) > 0.05)) > 0.5:
+        return how_it_turned(recording)
+    return "most of the time it stood or turned"
+
+
+def in_the_map(said, point, at):
+    """Return whether a map that came at a time [s] shows what was touched at a point [m]; None if it shows nothing."""
+    column, row = (int((point[i] + corner) / 0.1) for i, corner in ((0, 5.0), (1, 4.0)))
+    around = said[max(row - 2, 0) : row + 3, max(column - 2, 0) : column + 3]
+    if not around.size:
+        return ""
+    if (around >= 65).any():
+        return f"your map of {at:.1f} s shows it there"
+    shown = "free" if ((around >= 0) & (around <= 25)).sum() > (around < 0).sum() else "unknown"
+    return f"your map of {at:.1f} s does not show it: the cells there are {shown}"
+
+
+def touched(recording, radius, at, place, there=""):
+    """Return how the robot came to touch something at a time [ns], whose nearest point is at `place` (x, y) [m].
+
+    `there` says whether the map showed it.
+    """
     x, y, yaw = (
         float(np.interp(at, signal.times, signal.values))
         for signal in (recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw"))
     )
     bearing = np.remainder(np.arctan2(place[1] - y, place[0] - x) - yaw + np.pi, 2 * np.pi) - np.pi
-    if said := suspect(
-        recording, "sleep", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
-    ):
+    kinds = "sleep", "forgets", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
+    if said := suspect(recording, *kinds, "straight"):
         return said
-    if said := drives_while_turning(recording):
+    if said := sideways(recording) or drives_while_turning(recording):
         return said
+    if "does not show it" in there:
+        return f"{there}, so no way keeps away from it: see that hits stay in the map that it drives by"
+    more = f"; {there}" if there else ""
     if abs(bearing) > AHEAD:
         side = "left" if bearing > 0 else "right"
         return (
-            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead, driving past: the "
-            f"way leaves less room than the robot's radius, {radius:g} m, as if it were a point; widen walls by 0.25 m"
+            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead{more}: the way "
+            f"that it took leaves less room than the robot's radius, {radius:g} m"
         )
-    return "it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time"
+    return f"it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time{more}"
 
 
 def drives_while_turning(recording):
@@ -126,8 +182,10 @@ def drives_while_turning(recording):
     )
 
 
-def hardly_any(said, maps):
+def hardly_any(recording, said, maps):
     """Return what is odd about a map with hardly any walls, given all maps that came."""
+    if forgotten := suspect(recording, "forgets"):
+        return forgotten
     if len(maps) > 3 and all(np.array_equal(maps[0], each) for each in maps):
         kind = "all cells are unknown" if (said < 0).all() else f"{(said >= 65).sum()} cells are occupied"
         return (
@@ -171,13 +229,19 @@ def between_map(said):
     return (said > 25) & (said < 65)
 
 
-def walls_missing(said, wanted, before):
+def walls_missing(said, wanted, before, said_of=""):
     """Return why walls that were hit are not in the map `said`, given where any earlier map had walls, or None."""
     values = said[wanted]
     if before is not None:
         lost = before & ~grown(said >= 65)
         if lost.sum() >= 20 and lost.sum() > 0.2 * before.sum():
-            return "walls that were in earlier maps are gone: each scan must be added to what is known, not replace it"
+            if not said_of and ((said[lost] >= 0) & (said[lost] <= 25)).mean() > 0.6:
+                return (
+                    "walls that were in earlier maps are free in the last one: rays that pass a cell, or end in it, "
+                    "make it free again; a hit must count for more than they do"
+                )
+            words = said_of or "each scan must be added to what is known, not replace it"
+            return f"walls that were in earlier maps are gone: {words}"
     if ((values >= 0) & (values <= 25)).mean() > 0.4:
         return (
             "many walls that were hit are free in the map: a ray that ends in a cell, or grazes it, makes it free "

@@ -15,11 +15,11 @@ DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
 NOW = np.arange(0.0, 36.0, 0.2)
 
 
-def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, suspects=(), tests=()):
+def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, aside=0 * NOW, suspects=(), tests=()):
     """A recording as these functions see it."""
     signals = {f"truth/robot/{name}": values for name, values in (("x", x), ("y", y), ("yaw", yaw))}
     signals["truth/robot/distance"] = np.cumsum(np.hypot(np.diff(x, prepend=x[:1]), np.diff(y, prepend=y[:1])))
-    signals |= {"topics/cmd_vel/linear/x": ahead, "topics/cmd_vel/angular/z": turning}
+    signals |= {"topics/cmd_vel/linear/y": aside, "topics/cmd_vel/linear/x": ahead, "topics/cmd_vel/angular/z": turning}
     times = np.round(NOW * 1e9).astype(np.int64)
     return SimpleNamespace(
         signal=lambda name: Signal(times[: len(signals[name])], signals[name]),
@@ -88,9 +88,9 @@ def test_a_robot_that_drove_far_and_did_not_see_all_is_looked_up_in_its_file():
 
 
 def test_maps_that_are_all_the_same():
-    said = np.full((80, 100), -1.0)
-    assert "all 5 maps are the same, all cells are unknown" in DRIVING.hardly_any(said, [said.ravel()] * 5)
-    assert DRIVING.hardly_any(said, [said.ravel()] * 4 + [0 * said.ravel()]) == "hardly any cell is occupied"
+    said, run = np.full((80, 100), -1.0), recording()
+    assert "all 5 maps are the same, all cells are unknown" in DRIVING.hardly_any(run, said, [said.ravel()] * 5)
+    assert DRIVING.hardly_any(run, said, [said.ravel()] * 4 + [0 * said.ravel()]) == "hardly any cell is occupied"
 
 
 def test_what_was_touched_ahead_and_beside():
@@ -98,6 +98,33 @@ def test_what_was_touched_ahead_and_beside():
     assert DRIVING.nearest_point(shapes, (0.3, 0.0)) == pytest.approx(np.array([0.5, 0.0]), abs=0.02)
     assert "straight at it" in DRIVING.touched(recording(), 0.18, 0, (0.2, 0.0))
     assert "its left side, 90 degrees from ahead" in DRIVING.touched(recording(), 0.18, 0, (0.0, 0.18))
+
+
+def test_what_the_map_shows_where_something_was_touched():
+    said = np.full((80, 100), -1.0)
+    assert "does not show it: the cells there are unknown" in DRIVING.in_the_map(said, (1.0, 0.0), 6.0)
+    said[35:45, 55:65] = 0
+    free = DRIVING.in_the_map(said, (1.0, 0.0), 6.0)
+    assert "does not show it: the cells there are free" in free
+    assert "no way keeps away from it" in DRIVING.touched(recording(), 0.18, 0, (0.2, 0.0), free)
+    said[40, 61] = 100
+    shown = DRIVING.in_the_map(said, (1.0, 0.0), 6.0)
+    assert shown == "your map of 6.0 s shows it there" and shown in DRIVING.touched(
+        recording(), 0.18, 0, (0, 0.2), shown
+    )
+
+
+def test_a_robot_that_is_commanded_to_drive_sideways():
+    aside = recording(aside=0.3 + 0 * NOW, ahead=0.1 + 0 * NOW)
+    assert "cannot drive sideways" in DRIVING.slow_or_lost(aside) and "angular.z is 0" in DRIVING.stands(aside)
+    assert DRIVING.sideways(recording()) == ""
+
+
+def test_what_a_robot_that_drove_little_was_commanded():
+    early, turning = np.where(NOW < 5, 0.3, 0.0), np.where(NOW % 2 < 1.5, 1.0, 0.0)
+    assert "all commands from 5 s on are 0" in DRIVING.what_it_did(recording(ahead=early))
+    turns = recording(turning=turning, yaw=np.cumsum(turning) / 5)
+    assert "to the left nearly all the time" in DRIVING.what_it_did(turns)
 
 
 def grids():
@@ -122,6 +149,20 @@ def test_walls_that_are_missing(value, words):
 def test_walls_that_were_there_before():
     said, wanted, _ = grids()
     assert "each scan must be added" in DRIVING.walls_missing(said, wanted, wanted)
+
+
+def test_walls_that_were_there_before_and_are_free_now():
+    said, wanted, _ = grids()
+    said[wanted] = 0
+    assert "a hit must count for more" in DRIVING.walls_missing(said, wanted, wanted)
+
+
+def test_a_map_that_is_moved():
+    arranged = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
+    _, solid, _ = grids()
+    solid[20:60, 10] = True
+    ((words, changed),) = arranged.moved(np.roll(solid, (1, 2), (0, 1)), solid)
+    assert "2 cells too far along x and 1 along y" in words and (changed == solid).all()
 
 
 def test_cells_that_are_not_free():
@@ -179,3 +220,42 @@ def test_scattered_hits_do_not_explain_the_walls_of_a_map(monkeypatch):
     for points, words in ((wall, "a mistake"), (everywhere, "")):
         monkeypatch.setitem(known, "misplaced", lambda scan, points=points: [("a mistake", points)])
         assert checks["drawn_elsewhere"](recording) == words
+
+
+def test_cells_by_another_factor():
+    arranged = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
+    points = np.array([[-2.5, 1.5], [-2.4, 1.5]])
+    drawn = {words.split(":")[0]: np.argwhere(cells).tolist() for words, cells in arranged.scaled(points)}
+    assert drawn["metres are taken for cells"] == [[5, 2]]
+    assert drawn["the distance from the origin is multiplied by the resolution"] == [[0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [(100, "are occupied in the map: they are free"), (50, "values such as 50"), (-1, "all cells"), (0, "")],
+)
+def test_a_map_by_which_no_robot_can_drive(monkeypatch, value, words):
+    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    known = checks["not_as_it_was_seen"].__globals__
+    passed = np.zeros((80, 100), dtype=int)
+    passed[20:60, 20:60] = 9
+    monkeypatch.setitem(known, "walls_are_right", lambda *given: True)
+    monkeypatch.setitem(known, "hits", lambda *given: np.empty((0, 2)))
+    monkeypatch.setitem(known, "along", lambda *given: passed)
+    said = checks["not_as_it_was_seen"](recording(), np.where(passed, value, -1.0), SimpleNamespace(ends=3.0, hit=None))
+    assert words in said if words else said == ""
+
+
+def test_walls_in_a_wrong_place_are_no_walls_known_by_heart(monkeypatch):
+    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    known = checks["known_before"].__globals__
+    said = np.full((80, 100), -1.0)
+    said[10, 10:90] = 100
+    hit = np.stack([np.arange(10, 90) / 10 - 4.95, np.full(80, 2.05)], 1)
+    monkeypatch.setitem(known, "grid", lambda *given: (said, 1.0))
+    monkeypatch.setitem(known, "scans", lambda *given: None)
+    monkeypatch.setitem(known, "shapes", lambda *given: Shapes([], []))
+    run = SimpleNamespace(arrays=lambda name: (np.zeros(1), []))
+    for points, by_heart in ((hit, False), (hit[:20], True)):
+        monkeypatch.setitem(known, "hits", lambda *given, points=points: points)
+        assert bool(checks["known_before"](run)) == by_heart

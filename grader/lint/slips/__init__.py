@@ -16,6 +16,7 @@ from gz_course.grader.lint.slips import (
     callbacks,
     conditions,
     endless_spins,
+    endless_waits,
     everyday,
     exact_sums,
     late_binding,
@@ -27,6 +28,7 @@ from gz_course.grader.lint.slips import (
     no_time_passed,
     none_tests,
     not_what_they_seem,
+    one_array,
     parameters,
     publishers,
     rates,
@@ -61,6 +63,7 @@ ROOMS = (
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
     endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
+    one_array.LOOKS, endless_waits.LOOKS,
 )  # fmt: skip
 
 

@@ -180,7 +180,11 @@ def blocking(tree: ast.AST) -> Iterator[Place]:
             names = {name for _, name in calls(inner)}
             if names & {"spin_once", "spin_some"}:
                 continue
-            if rates or "sleep" in names or not names - {"ok", "now", "get_clock", "publish", "info"}:
+            endless = isinstance(inner.test, ast.Constant) and not any(
+                isinstance(each, ast.Break | ast.Return) for each in ast.walk(inner)
+            )
+            only_waits = names and not names - {"ok", "now", "get_clock", "publish", "info"}
+            if rates or "sleep" in names or only_waits or (not names and endless):
                 yield (
                     inner.lineno,
                     f"the loop in the callback {node.name} keeps the executor: while it runs, no other callback and no "

@@ -74,4 +74,25 @@ def _factor(node: ast.expr, part: str, names: Mapping[str, str], numbers: Mappin
     return None
 
 
-LOOKS = (parts_of_a_second, sums_of_parts)
+def nanoseconds_alone(tree: ast.AST) -> Iterator[Place]:
+    """Find the nanoseconds of a stamp used as its time, in a file that reads the seconds nowhere."""
+    names = {last_name(node) for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    if names & {"sec", "seconds_nanoseconds"}:
+        return
+    copied = {
+        id(node.value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Assign) and last_name(node.targets[0]) == "nanosec"
+    }
+    for node in ast.walk(tree):
+        read = isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr == "nanosec"
+        if read and id(node) not in copied:
+            yield (
+                node.lineno,  # type: ignore[attr-defined]
+                f"{ast.unparse(node)[:70]} is the part of the time within a second, which begins at 0 again each "
+                "second, and sec is read nowhere: Time.from_msg(stamp).nanoseconds is the whole time",
+            )
+            return
+
+
+LOOKS = (parts_of_a_second, sums_of_parts, nanoseconds_alone)

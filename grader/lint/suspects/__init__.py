@@ -20,6 +20,7 @@ from gz_course.grader.lint.suspects import (
     feedback,
     followers,
     goal_flags,
+    forgetting,
     goals,
     gyroscopes,
     headings,
@@ -37,6 +38,9 @@ from gz_course.grader.lint.suspects import (
     stale_parameters,
     steering_units,
     waypoint_loops,
+    straight_goals,
+    turning_signs,
+    way_ends,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -70,6 +74,10 @@ LOOKS = (
     *lookups.LOOKS,
     *oldest.LOOKS,
     *sleeps.LOOKS,
+    *forgetting.LOOKS,
+    *straight_goals.LOOKS,
+    *way_ends.LOOKS,
+    *turning_signs.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -21,6 +21,8 @@ def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
                 kept[ast.unparse(call.func.value)] = name
     for function in functions(tree):
         for target, value in assigned(function):
+            if isinstance(value, ast.Call) and ast.unparse(value) in {f"min({each})" for each in kept}:
+                yield value.lineno, "pose", f"{ast.unparse(value)} is the oldest pose that is kept: [-1] is the newest"
             part = value.value if isinstance(value, ast.Attribute) else value
             whole = part.value if isinstance(part, ast.Subscript) else part
             name, adds = ast.unparse(whole), kept.get(ast.unparse(whole), "")

@@ -62,6 +62,7 @@ def test_who_has_several_threads_may_sleep():
 
 def test_the_oldest_pose_is_found():
     assert "self.poses[0] is the oldest pose" in found("self.poses[-1]", "self.poses[0]", "pose")[0]
+    assert "min(self.poses) is the oldest pose" in found("self.poses[-1]", "min(self.poses)", "pose")[0]
 
 
 @pytest.mark.parametrize("right", ["self.poses[0] - self.poses[-1]", "self.start(self.poses[0])"])

@@ -125,4 +125,25 @@ def test_a_way_that_another_method_plans_once():
     once = planned.replace("            self.way.pop(0)", "            pass")
     assert [each["about"] for each in suspects(once.encode())] == ["way"]
     again = once.replace("        self.counts[rows", "        self.plan()\n        self.counts[rows")
-    assert suspects(again.encode()) == []
+    assert not any("planned only while it is empty" in each["said"] for each in suspects(again.encode()))
+
+
+@pytest.mark.parametrize(
+    ("cell", "words"), [("0", "in which the robot stands already"), ("-1", "steers straight to it"), ("3", "")]
+)
+def test_only_one_end_of_a_way(cell, words):
+    planned = RIGHT.replace("self.way = self.plan()", "self.plan()").replace("return way[::-1]", "self.way = way[::-1]")
+    text = planned.replace("if not self.way:", "if True:").replace("            self.way.pop(0)", "            pass")
+    found = [each["said"] for each in suspects(text.replace("self.way[0]", f"self.way[{cell}]").encode())]
+    assert words in found[0] if words else found == []
+
+
+SIDES = "2.0 if error > 0 else -2.0", "-2.0 if error < 0 else 2.0", "-2.0 if error > 0 else 2.0"
+
+
+@pytest.mark.parametrize(("side", "number"), [(SIDES[0], 0), (SIDES[1], 0), (SIDES[2], 1)])
+def test_the_side_to_which_a_robot_turns(side, number):
+    text = RIGHT.replace("max(-1.0, min(1.0, 2 * error))", side)
+    assert [each["about"] for each in suspects(text.encode())] == ["sign"] * number
+    text = RIGHT.replace("error))", "error))\n        if error > 0.5:\n            command.angular.z = -1.0")
+    assert "on the left, and angular.z becomes -1.0" in suspects(text.encode())[0]["said"]
