@@ -19,8 +19,8 @@ from gz_course.grader.lint.suspects import (
     farthest,
     feedback,
     followers,
-    goal_flags,
     forgetting,
+    goal_flags,
     goals,
     gyroscopes,
     headings,
@@ -37,10 +37,10 @@ from gz_course.grader.lint.suspects import (
     smoothing,
     stale_parameters,
     steering_units,
-    waypoint_loops,
     straight_goals,
     turning_signs,
     way_ends,
+    waypoint_loops,
     ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
