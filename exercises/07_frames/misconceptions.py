@@ -88,7 +88,7 @@ def of_other_rays(found):
     yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
     yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
     best = np.array([int(np.argmin(distance[: i + 1])) for i in range(len(distance))])
-    words = "the nearest hits of all scans so far: begin the search anew in each scan"
+    words = "the nearest hits of all scans so far: begin a new search in each scan"
     for direction in (angle[best], angle, first):
         yield words, polar(distance[best], direction)
     words = "those of an angle that grows by more than angle_increment from ray to ray: angle_min counts once only"

@@ -78,7 +78,7 @@ def misplaced(recording, points, stamps, right):
     if np.abs(points[:, :2]).max(initial=0.0) < 1e-3:
         return "every point is at (0, 0): nothing is put into point.x and point.y"
     if np.ptp(ahead) < 0.01 and np.ptp(left) < 0.01:
-        return "every point is the same: it must be computed anew from each pair of pictures"
+        return "every point is the same: compute it from each pair of pictures"
     if said := DIRECTIONS.said_again(points, stamps):
         return said
     if np.abs(left).max() < 1e-3 and np.abs(ahead).max() > 0.5:

@@ -110,7 +110,7 @@ def silent(run, scans):
         return ""
     return (
         f"no command came for {quiet.sum()} of {clear.sum()} scans, those in which the distance was right within "
-        f"{near:.2f} m: without a new command the robot goes on with the last one, and goes on turning; publish one "
+        f"{near:.2f} m: without a new command the robot keeps the last one, and keeps turning; publish one "
         "for each scan"
     )
 

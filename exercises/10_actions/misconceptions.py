@@ -58,7 +58,7 @@ def old_commands(run, goal, until):
     if 0 < sent <= len(run.waypoints(goal)) and until - start > LONG:
         return (
             f"Your server sent {'1 command' if sent == 1 else f'{sent} commands'} in {until - start:.0f} s: a command "
-            "that is computed once for each waypoint never changes; compute and publish it in every round of the loop"
+            "that is computed once for each waypoint never changes; compute and publish it in each step of the loop"
         )
     return ""
 
@@ -145,7 +145,7 @@ def blind(run, goal):
         return (
             "The patrol never ended: the loop in execute does not see where the robot is, because its distance never "
             "changes. While it runs, /odom needs a thread of its own, that of a MultiThreadedExecutor, and a callback "
-            "group that lets both run; and the loop must read the place anew"
+            "group that lets both run; and the loop must read the place again"
         )
     return ""
 

@@ -190,7 +190,7 @@ def hardly_any(recording, said, maps):
         kind = "all cells are unknown" if (said < 0).all() else f"{(said >= 65).sum()} cells are occupied"
         return (
             f"all {len(maps)} maps are the same, {kind}: data is made once and published again and again, so nothing "
-            "that is scanned gets into it; make data anew for each publish()"
+            "that is scanned gets into it; make new data for each publish()"
         )
     return "hardly any cell is occupied"
 

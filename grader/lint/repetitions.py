@@ -38,7 +38,7 @@ def _timers(tree: ast.Module) -> Iterator[Place]:
 
 
 def _loops(tree: ast.Module) -> Iterator[Place]:
-    """Find a loop that publishes in every round and has no end of its own, or a constant number of rounds."""
+    """Find a loop that publishes in every iteration and has no end of its own, or a constant number of rounds."""
     for loop in ast.walk(tree):
         if not isinstance(loop, ast.While | ast.For):
             continue

@@ -15,7 +15,7 @@ LINE = re.compile(r"\bline (\d+)")  # a line that an explanation names
 RECKONED = {
     "ticks": "your node counts ticks; a timer can miss some, so ask the node's clock, self.get_clock().now(), how much "
     "time has passed",
-    "restart": "this sets the start anew in every call, so the time since then is always 0; set it once, if it is None",
+    "restart": "this sets the start again in every call, so the time since then stays 0; set it once, if it is None",
     "nanosec": "these are the nanoseconds within the current second, without the whole seconds; a time in seconds is "
     "sec + nanosec / 1e9, or time.nanoseconds / 1e9",
     "sec": "these are the whole seconds only, without the fraction; a time in seconds is sec + nanosec / 1e9, or "

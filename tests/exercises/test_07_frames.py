@@ -243,7 +243,7 @@ def test_rays_of_a_part_of_the_scan_and_transforms_in_the_wrong_order():
     assert shift in run.answer(both_of, late=0.02).places().explanation
     best = np.minimum.accumulate(distance)
     said = run.answer(both.of(polar(best, angle)), late=0.02).places().explanation
-    assert "begin the search anew in each scan" in said
+    assert "begin a new search in each scan" in said
     said = run.answer(found.mount.of(odom(run, run.at).of(found.hits)), late=0.02).places().explanation
     assert "both transforms in the wrong order" in said
 

@@ -100,7 +100,7 @@ def _row(node: yaml.Node) -> dict[str, Any]:
         if column in first:
             again = sum(other in first for other in columns[place:])
             dash = f": a dash is missing here, '- {column}:' begins the next row" if again > 1 else ""
-            raise TableError(_line(key), f"{column} stands twice in one row (first in line {first[column]}){dash}")
+            raise TableError(_line(key), f"{column} appears twice in one row (first in line {first[column]}){dash}")
         first[column] = _line(key)
         row[column] = _text(column, value)
     return row

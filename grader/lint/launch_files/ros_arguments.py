@@ -57,7 +57,7 @@ def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
             if assigns and name not in known | OF_EVERY_NODE and name.isidentifier():
                 yield (
                     word.lineno,
-                    f"{program} declares no parameter {name}, so nobody reads this one; it declares "
+                    f"{program} declares no parameter {name}, so nothing reads this one; it declares "
                     f"{', '.join(sorted(known))}",
                 )
 

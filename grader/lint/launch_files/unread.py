@@ -53,7 +53,7 @@ def braces_without_f(file: LaunchFile) -> Iterator[Place]:
         if match and match[1] in names:
             yield (
                 node.lineno,
-                f"{text(node)[:60]!r} has no f before its quotes, so {match[0]} stays as it stands: write f'...'",
+                f"{text(node)[:60]!r} has no f before its quotes, so {match[0]} is not replaced: write f'...'",
             )
 
 
@@ -72,7 +72,7 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
             if name not in known | OF_EVERY_NODE and not _near_sim_time(name):
                 yield (
                     line,
-                    f"{program} declares no parameter {name}, so nobody reads this one; it declares "
+                    f"{program} declares no parameter {name}, so nothing reads this one; it declares "
                     f"{', '.join(sorted(known))}",
                 )
 

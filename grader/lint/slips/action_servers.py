@@ -182,7 +182,7 @@ def without_a_pause(tree: ast.AST) -> Iterator[Place]:
                 yield (
                     loop.lineno,
                     "this loop publishes without a pause, as often as the computer can, and leaves no time to the "
-                    "callbacks: call time.sleep(0.1) in every round",
+                    "callbacks: call time.sleep(0.1) in every iteration",
                 )
                 return
 

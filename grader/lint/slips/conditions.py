@@ -104,7 +104,7 @@ def none_for_ever(tree: ast.AST) -> Iterator[Place]:
         if instead:
             yield (
                 node.lineno,  # type: ignore[attr-defined]
-                f"{name} stays None, because what stands below sets {instead[0]} and not {name}: so this holds in "
+                f"{name} stays None, because the code below sets {instead[0]} and not {name}: so this holds in "
                 "every call; use one name for both",
             )
 
@@ -182,7 +182,7 @@ def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
                     if one in ends and ends[one][1] == other and "now" in other:
                         yield (
                             ends[one][0],
-                            f"{one} is computed anew from {other} in every call, so it is always ahead, and line "
+                            f"{one} is computed again from {other} in every call, so it is always ahead, and line "
                             f"{node.lineno} always gives the same: set it once, in the first call",
                         )
                         return
@@ -209,7 +209,7 @@ def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
                     if isinstance(first, bool) and first == negated:
                         yield (
                             node.lineno,
-                            f"what stands below this condition never runs: {name} is {first} from the start, and only "
+                            f"the code below this condition never runs: {name} is {first} from the start, and only "
                             "these lines change it",
                         )
 

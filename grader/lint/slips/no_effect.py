@@ -84,7 +84,7 @@ def changed_after_publish(tree: ast.AST) -> Iterator[Place]:
 
 
 def _published_again(function: ast.FunctionDef, statement: ast.stmt, name: str) -> bool:
-    """Return whether a message is published behind a statement: further down, or in the next round of a loop."""
+    """Return whether a message is published behind a statement: further down, or in the next iteration of a loop."""
     if any(each.lineno > statement.lineno and _published(each) == name for each in _statements(function)):
         return True
     for loop in _statements(function):
@@ -227,7 +227,7 @@ def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
             if owner in timers and method == "reset":
                 yield (
                     node.lineno,
-                    f"{owner}.reset() begins the period anew, and the timer fires again: {owner}.cancel() ends it",
+                    f"{owner}.reset() starts the period again, and the timer fires again: {owner}.cancel() ends it",
                 )
             if owner in timers and method in ("is_canceled", "is_ready"):
                 yield node.lineno, f"{owner}.{method}() only asks: {owner}.cancel() ends the timer"

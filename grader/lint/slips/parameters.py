@@ -56,7 +56,7 @@ def callbacks_that_nobody_calls(tree: ast.AST) -> Iterator[Place]:
         if any(name == RESULT for _, name in calls(function)):
             yield (
                 function.lineno,
-                f"{function.name}() is never told of a new value of a parameter: "
+                f"{function.name}() is not called when a parameter changes: "
                 f"self.add_on_set_parameters_callback(self.{function.name}) in __init__ registers it",
             )
 

@@ -32,7 +32,7 @@ def set_anew(tree: ast.AST) -> Iterator[Place]:
                 line = always[start].lineno
                 yield (
                     line,
-                    f"{start} is set anew in every call of {function.name}, so line {node.lineno} compares the time "
+                    f"{start} is set again in every call of {function.name}, so line {node.lineno} compares the time "
                     "since the last call: what is measured from the start is set once",
                 )
 

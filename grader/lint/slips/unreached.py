@@ -120,8 +120,7 @@ def never_true(tree: ast.AST) -> Iterator[Place]:
                 continue
             yield (
                 node.lineno,
-                f"what stands {where} never runs: {name} is {begins[name]} from the start, and only these lines change "
-                "it",
+                f"the code {where} never runs: {name} is {begins[name]} from the start, and only these lines change it",
             )
 
 
@@ -132,7 +131,7 @@ def _kept_back(node: ast.If, behind: list[ast.stmt]) -> tuple[str, list[ast.stmt
         inner = [each for statement in node.body for each in ast.walk(statement)]
         name = ast.unparse(test.operand)
         if not any(_changes(each, name) for each in inner):
-            return name, behind, f"behind  if {ast.unparse(test)}: {ast.unparse(node.body[-1])}"
+            return name, behind, f"after  if {ast.unparse(test)}: {ast.unparse(node.body[-1])}"
     name = ast.unparse(test)
     return name, node.body, f"below  if {name}: "
 

@@ -158,7 +158,7 @@ def refreshed(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         statement.lineno,
                         "endless",
-                        f"{name} = {ast.unparse(value)[:40]} sets the start anew in every call of {function.name}, so "
+                        f"{name} = {ast.unparse(value)[:40]} sets the start again in every call of {function.name}, so "
                         "the time since then stays short: set it once, if it is None",
                     )
 

@@ -103,7 +103,7 @@ def added_commands(tree: ast.AST) -> Iterator[Suspect]:
                     node.lineno,
                     "added",
                     f"{ast.unparse(node)[:60]} adds the correction to the last command, so it grows as long as the "
-                    "error lasts: a correction is the whole angular.z, computed anew for each scan",
+                    "error lasts: a correction is the whole angular.z, computed for each scan alone",
                 )
 
 

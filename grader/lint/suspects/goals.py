@@ -166,8 +166,8 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     grows[0],
                     "anew",
-                    f"{name} keeps what earlier goals have put into it, and this line adds to it: make it anew where a "
-                    "goal is executed",
+                    f"{name} keeps what earlier goals have put into it, and this line adds to it: make a new one where "
+                    "a goal is executed",
                 )
 
 

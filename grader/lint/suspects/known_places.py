@@ -93,7 +93,7 @@ def _equal(line: int, code: ast.expr, key: ast.expr) -> Iterator[Suspect]:
         yield (
             line,
             "same",
-            f"{text}: two measurements of one post are never equal to the last digit, so each counts anew; compare "
+            f"{text}: two measurements of one post are never equal to the last digit, so each counts again; compare "
             "distances with those that are known",
         )
 

@@ -89,7 +89,7 @@ def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
                     next(iter(old.values()))[1],
                     "old_pose",
                     f"{words} {verb} of {whole}, made before the loop in line {loop.lineno}, which therefore goes on "
-                    "with the values from before: read them anew in every round",
+                    "with the values from before: read them again in every iteration",
                 )
                 break
 

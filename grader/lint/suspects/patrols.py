@@ -102,8 +102,7 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 begun[0].lineno,
                 "result",
-                f"{name} is set once for all goals, and line {line} counts it on: it begins anew where a goal is "
-                "executed",
+                f"{name} is set once for all goals, and line {line} counts it on: reset it where a goal is executed",
             )
 
 

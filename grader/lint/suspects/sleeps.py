@@ -27,8 +27,8 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
                 call.lineno,
                 "sleep",
                 f"{ast.unparse(call)[:60]} sleeps in a callback ({function.name}): meanwhile the node hears no scan "
-                "and no odometry, and no timer fires, so it goes on with old values; publish a command and return, and "
-                "look again in the next call",
+                "and no odometry, and no timer fires, so it continues with old values; publish a command and return, "
+                "and look again in the next call",
             )
         for loop in (each for each in ast.walk(function) if isinstance(each, ast.While)):
             if called(loop.test) & CLOCKS and not called(loop) & (SLEEPS | {"spin_once"}):

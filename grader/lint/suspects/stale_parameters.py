@@ -82,7 +82,7 @@ def _kept(tree: ast.Module, name: str, inside: dict[int, str], start: set[str]) 
         if once and kept in loads:
             return of[0].lineno, (
                 f"{kept} = {ast.unparse(of[0])[:60]} is read only once, in {inside[id(of[0])]}, and {loads[kept]}() "
-                "goes on with that value; read the parameter there"
+                "keeps that value; read the parameter there"
             )
         if kept not in loads and not once:
             return of[0].lineno, f"{kept} keeps the parameter {name}, and nothing reads {kept} later"

@@ -1,4 +1,4 @@
-"""Suspects in the loop over the waypoints of a goal: it is left in its first round, or leaves one of them out."""
+"""Suspects in the loop over the waypoints of a goal: it is left in its first iteration, or leaves one of them out."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         statement.lineno,
                         "left_early",
-                        f"this {what} ends the loop of line {loop.lineno} in its first round: it belongs behind the "
+                        f"this {what} ends the loop of line {loop.lineno} in its first iteration: it belongs after the "
                         "loop",
                     )
 

@@ -118,7 +118,7 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
                     node.lineno,
                     "way",
                     f"{way} is planned only while it is empty, and nothing takes a cell out of it: the robot goes for "
-                    "the same cell for ever. Take out the cells that are reached, or plan anew each time",
+                    "the same cell for ever. Take out the cells that are reached, or plan again each time",
                 )
 
 

@@ -29,7 +29,7 @@ def long_before(asked: Asked) -> np.ndarray:
     return max(shifted, key=asked.met)
 
 
-@predicts("the smallest of all scans so far, not of this scan: start anew in every callback")
+@predicts("the smallest of all scans so far, not of this scan: begin again in every callback")
 def smallest_so_far(asked: Asked) -> np.ndarray:
     return np.minimum.accumulate(asked.truth)
 
@@ -39,7 +39,7 @@ def smallest_before(asked: Asked) -> np.ndarray:
     return _before(np.minimum.accumulate(asked.truth), 1)
 
 
-@predicts("the largest of all scans so far, not of this scan: start anew in every callback")
+@predicts("the largest of all scans so far, not of this scan: begin again in every callback")
 def largest_so_far(asked: Asked) -> np.ndarray:
     return np.maximum.accumulate(asked.truth)
 
@@ -57,7 +57,7 @@ def average_of_all_ranges(asked: Asked) -> np.ndarray:
     return np.cumsum([v.sum() for v in valid]) / np.cumsum([len(v) for v in valid])
 
 
-@predicts("the sum over all scans so far: start anew in every callback")
+@predicts("the sum over all scans so far: begin again in every callback")
 def sum_so_far(asked: Asked) -> np.ndarray:
     return np.cumsum(asked.truth)
 

@@ -132,7 +132,7 @@ def never_ends(drive: Drive) -> str:
     return (
         f"{len(drive.times)} commands in a row drive the robot and not one stops it: {decides}what your node compares "
         f"does not reach its limit in {drive.ended:.0f} s (a count of ticks, nanoseconds without the seconds, a start "
-        f"that is set anew in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it "
+        f"that is set again in every callback, {drive.seconds:g} m where {drive.seconds:g} s are asked for), or it "
         "never compares"
     )
 

@@ -87,7 +87,7 @@ SLIPS = {
         "x = m.range_max < r < m.range_min", "x = m.range_min < r < m.range_max",
     ),
     "has the same bound twice": ("x = m.range_min <= r <= m.range_min", "x = m.range_min <= r <= m.range_max"),
-    "self.start stays None, because what stands below sets self.begin": (NONE.format("begin"), NONE.format("start")),
+    "self.start stays None, because the code below sets self.begin": (NONE.format("begin"), NONE.format("start")),
     "start is None here in every call": (
         "def tick():\n    start = None\n    if start is None:\n        start = now()\n",
         "def tick():\n    start = None\n    start = find()\n    if start is None:\n        start = now()\n",
@@ -95,7 +95,7 @@ SLIPS = {
     "elif t >= 5: is never reached": (
         "if t >= 0:\n    go()\nelif t >= 5:\n    halt()\n", "if t >= 5:\n    halt()\nelif t >= 0:\n    go()\n",
     ),
-    "end is computed anew from now in every call": (
+    "end is computed again from now in every call": (
         "def tick(self):\n    now = clock()\n    end = now + FIVE\n    if now < end:\n        go()\n",
         "def tick(self):\n    end = self.start + FIVE\n    if now < end:\n        go()\n",
     ),

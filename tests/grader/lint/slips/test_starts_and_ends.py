@@ -35,7 +35,7 @@ def test_a_right_file_has_no_slip():
 
 def test_a_start_that_each_call_sets_anew_is_named():
     lines = "passed = now - self.start\n        self.start = now\n        if passed < Duration(seconds=5): pass"
-    assert any("self.start is set anew in every call of tick" in each for each in said(lines))
+    assert any("self.start is set again in every call of tick" in each for each in said(lines))
 
 
 def test_zero_is_told_apart_from_none_only_by_is_none():

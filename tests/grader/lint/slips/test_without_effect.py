@@ -139,7 +139,7 @@ WRONG = {
     "rclpy.ok without brackets": ("elapsed < SECONDS", "rclpy.ok"),
     "which ends in its first iteration": ("        return best", "            return best"),
     "takes the name away, and the timer goes on": ("self.done = True", "self.timer = None"),
-    "begins the period anew": ("self.done = True", "self.timer.reset()"),
+    "starts the period again": ("self.done = True", "self.timer.reset()"),
 }  # fmt: skip
 
 

@@ -57,7 +57,7 @@ WRONG = {
         "endless", ("class Driver", "go = Twist()\n\n\nclass Driver"), ("        command = Twist()\n", ""),
         ("command.linear.x", "go.linear.x"), ("publish(command)", "publish(go)"),
     ),
-    "sets the start anew in every call of on_odometry": (
+    "sets the start again in every call of on_odometry": (
         "endless", ("        self.create_timer", PLACE + "        self.create_timer"),
         ("odometry.pose.pose.position.x", "odometry.header.stamp.sec"), ("now - self.first", "now - self.way"),
     ),

@@ -55,7 +55,7 @@ def test_right_ways(changed):
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
-        ({"init": READ, "scan": KEPT}, "read only once, in __init__, and on_scan() goes on with that value"),
+        ({"init": READ, "scan": KEPT}, "read only once, in __init__, and on_scan() keeps that value"),
         ({"init": "self.far = self.param('distance')", "scan": KEPT}, "is read only once, in __init__"),
         (
             {"init": "self.far = self.get_parameters(['distance'])[0].value", "scan": KEPT},
