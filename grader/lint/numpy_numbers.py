@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.grader.lint.slips.sequences import assigned
+from gz_course.grader.lint.slips.language.sequences import assigned
 from gz_course.grader.lint.syntax import functions
 
 FLOAT32 = frozenset({"ranges", "intensities"})  # fields that are arrays of float32

@@ -17,9 +17,9 @@ from gz_course.grader.lint.early_publishing import early_publishing
 from gz_course.grader.lint.origins import before_speeds, conditions, of_the_drive, origins
 from gz_course.grader.lint.repetitions import repetitions
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.message_fields import message_fields
-from gz_course.grader.lint.slips.sequences import silent_log
-from gz_course.grader.lint.slips.transforms import lookups, shared_headers
+from gz_course.grader.lint.slips.language.sequences import silent_log
+from gz_course.grader.lint.slips.nodes.message_fields import message_fields
+from gz_course.grader.lint.slips.nodes.transforms import lookups, shared_headers
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock

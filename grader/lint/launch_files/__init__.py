@@ -24,9 +24,9 @@ from gz_course.grader.lint.launch_files.conditions import bridges, simulators
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
-from gz_course.grader.lint.slips.late_binding import late_bound
-from gz_course.grader.lint.slips.no_effect import first_iteration
-from gz_course.grader.lint.slips.scan_callbacks import kept_defaults
+from gz_course.grader.lint.slips.language.late_binding import late_bound
+from gz_course.grader.lint.slips.language.no_effect import first_iteration
+from gz_course.grader.lint.slips.nodes.scan_callbacks import kept_defaults
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most

@@ -10,47 +10,47 @@ import ast
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from gz_course.grader.lint.slips import (
-    action_servers,
-    angles,
-    callbacks,
-    conditions,
-    endless_spins,
-    endless_waits,
-    everyday,
+from gz_course.grader.lint.slips.clocks import (
     exact_sums,
-    late_binding,
-    limits,
     mixed_clocks,
+    no_time_passed,
+    rates,
+    stamp_parts,
+    starts,
+    time_units,
+)
+from gz_course.grader.lint.slips.geometry import angles, limits, rotations, searches, sorted_rays
+from gz_course.grader.lint.slips.language import (
+    conditions,
+    everyday,
+    late_binding,
     names,
     never_set,
     no_effect,
-    no_time_passed,
     none_tests,
     not_what_they_seem,
     one_array,
-    parameters,
-    publishers,
-    rates,
     resets,
     results,
-    rotations,
-    scan_callbacks,
-    searches,
     sequences,
-    sorted_rays,
-    stamp_parts,
-    starts,
     states,
-    time_units,
-    transforms,
     unreached,
+)
+from gz_course.grader.lint.slips.language.everyday import LONGEST_PERIOD, periods
+from gz_course.grader.lint.slips.nodes import (
+    action_servers,
+    callbacks,
+    endless_spins,
+    endless_waits,
+    parameters,
+    publishers,
+    scan_callbacks,
+    transforms,
     unused_callbacks,
     waiting,
     waiting_messages,
 )
-from gz_course.grader.lint.slips.everyday import LONGEST_PERIOD, periods
-from gz_course.grader.lint.slips.message_fields import unknown_fields
+from gz_course.grader.lint.slips.nodes.message_fields import unknown_fields
 from gz_course.grader.lint.syntax import Places, places_in
 
 MOST = 3  # places reported at most

@@ -9,39 +9,30 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects import (
-    ages,
-    aliases,
+from gz_course.grader.lint.suspects.actions import goal_flags, goals, patrols, waypoint_loops
+from gz_course.grader.lint.suspects.memory import ages, aliases, hidden_errors, lookups, old_values, oldest
+from gz_course.grader.lint.suspects.planning import forgetting, straight_goals, way_ends, ways
+from gz_course.grader.lint.suspects.sensing import (
     bearings,
     bias_use,
     bias_while_turning,
-    drives,
     farthest,
-    feedback,
-    followers,
-    forgetting,
-    goal_flags,
-    goals,
     gyroscopes,
-    headings,
-    hidden_errors,
     known_places,
-    lookups,
-    old_values,
-    oldest,
-    patrols,
     pictures,
     rays,
     same_places,
+)
+from gz_course.grader.lint.suspects.steering import (
+    drives,
+    feedback,
+    followers,
+    headings,
     sleeps,
     smoothing,
     stale_parameters,
     steering_units,
-    straight_goals,
     turning_signs,
-    way_ends,
-    waypoint_loops,
-    ways,
 )
 from gz_course.grader.lint.syntax import Places, places_in
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.message_fields import message_fields
+from gz_course.grader.lint.slips.nodes.message_fields import message_fields
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 
 FIELDS = {"Twist": {"linear.x", "angular.z"}, "Vector3": {"x", "y", "z"}, "Float32": {"data"}}

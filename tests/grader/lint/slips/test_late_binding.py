@@ -6,7 +6,7 @@ import pytest
 
 from gz_course.grader.lint.launch_files import launch_places
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.late_binding import late_bound
+from gz_course.grader.lint.slips.language.late_binding import late_bound
 
 LOOP = "for number in range(3):\n    "
 

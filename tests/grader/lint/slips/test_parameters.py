@@ -81,7 +81,7 @@ def test_right_ways(changed):
         ({"scan": "side = self.get_parameter('side').value\n        sign = 1 if side else -1"}, "side is a text"),
         ({"scan": "far = int(self.get_parameter('distance').value)"}, "a whole number of a parameter, 0 of 0.6"),
         ({"result": "SetParametersResult()"}, "refuses the new value"),
-        ({"init": "pass"}, "changed() is never told of a new value"),
+        ({"init": "pass"}, "changed() is not called when a parameter changes"),
         ({"changed": TAKES.replace("p.name == 'side'", "p == 'side'")}, "p is a Parameter"),
         ({"changed": "if 'distance' in parameters:\n            self.read_all()"}, "a list of Parameter objects"),
         ({"changed": "self.now = self.get_parameter('distance').value"}, "changed() is called before the new value"),

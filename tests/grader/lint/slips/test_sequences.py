@@ -3,7 +3,7 @@
 import pytest
 
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.sequences import silent_log
+from gz_course.grader.lint.slips.language.sequences import silent_log
 from gz_course.grader.lint.whole_numbers import whole_numbers
 
 HEAD = """\

@@ -3,7 +3,7 @@
 import pytest
 
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.transforms import lookups, shared_headers
+from gz_course.grader.lint.slips.nodes.transforms import lookups, shared_headers
 
 NODE = """\
 class Hit(Node):

@@ -1,0 +1,1 @@
+"""Mistakes with time: clocks, units, parts of stamps, sums and starts."""

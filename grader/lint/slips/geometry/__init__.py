@@ -1,0 +1,1 @@
+"""Mistakes with angles, rotations, limits and the rays of a scan."""

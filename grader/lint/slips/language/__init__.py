@@ -1,0 +1,1 @@
+"""Mistakes with Python itself: names, conditions, lists, results, code that never runs."""

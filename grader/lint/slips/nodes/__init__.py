@@ -1,0 +1,1 @@
+"""Mistakes with rclpy and tf2: callbacks, spinning, waiting, publishers, parameters, actions, transforms."""

@@ -1,0 +1,1 @@
+"""Suspects in action servers, their goals and patrols."""

@@ -1,0 +1,1 @@
+"""Suspects in what is kept too long, lost, or never noticed."""

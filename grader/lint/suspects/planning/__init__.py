@@ -1,0 +1,1 @@
+"""Suspects in maps, goals and ways through a map."""

@@ -1,0 +1,64 @@
+"""Suspects in what is set back to its beginning while the node runs, although things are collected in it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.suspects.steering.sleeps import reached
+from gz_course.grader.lint.syntax import Suspect, assigned, functions
+
+EMPTIES = frozenset({"clear", "fill"})
+
+
+def forgets(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an array or a dictionary that a callback makes anew each time as `__init__` did."""
+    begun = {
+        ast.unparse(target): ast.unparse(value)
+        for one in functions(tree)
+        if one.name == "__init__"
+        for target, value in assigned(one)
+        if ast.unparse(target).startswith("self.") and _holds_much(value)
+    }
+    parts = {
+        ast.unparse(node.value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Subscript) and not isinstance(node.value, ast.Subscript)
+    }
+    for function in reached(tree):
+        for statement in function.body:  # of its own, under no condition
+            name = ""
+            match statement:
+                case ast.Assign(targets=[ast.Attribute() as target], value=value):
+                    same = begun.get(ast.unparse(target)) == ast.unparse(value)
+                    name = ast.unparse(target) if same or _of_zeros(value, ast.unparse(target)) else ""
+                case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Attribute() as whole, attr=method))):
+                    name = ast.unparse(whole) if method in EMPTIES else ""
+                case ast.Assign(
+                    targets=[ast.Subscript(value=ast.Attribute() as whole, slice=ast.Slice(None, None, None))],
+                    value=ast.Constant() | ast.UnaryOp(),
+                ):
+                    name = ast.unparse(whole)
+            used = name in parts or f"{name} = " in ast.unparse(function).replace(ast.unparse(statement), "")
+            if name in begun and used:
+                yield (
+                    statement.lineno,
+                    "forgets",
+                    f"{ast.unparse(statement)[:60]} sets {name} back in each call of {function.name}, so all that was "
+                    "seen before is forgotten: make it once, in __init__",
+                )
+
+
+def _holds_much(value: ast.expr) -> bool:
+    """Return whether a value is an array, a long list or a dictionary."""
+    if isinstance(value, ast.Call):
+        return ast.unparse(value.func).startswith(("np.", "numpy.")) or ast.unparse(value) in ("dict()", "set()")
+    long = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult) and isinstance(value.left, ast.List)
+    return long or isinstance(value, ast.Dict | ast.ListComp)
+
+
+def _of_zeros(value: ast.expr, name: str) -> bool:
+    return ast.unparse(value).endswith((f"zeros_like({name})", f"full_like({name}, -1)"))
+
+
+LOOKS = (forgets,)

@@ -1,0 +1,66 @@
+"""Suspects in which cell of a way a robot steers to: always the first, where it stands, or always the last."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.suspects.planning.ways import SHORTENS, TURNS_ROUND, never_shortened
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions
+
+COLLECTS = frozenset({"append", "insert", "appendleft"})
+
+
+def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a file that reads only the first, or only the last, cell of a way that it searched from start to goal."""
+    if any(never_shortened(tree)):
+        return  # which says more
+    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+        for way in {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}:
+            makers = [each for each in functions(owner) if each.name != "__init__" and _makes(each, way)]
+            turned = any(called(each) & TURNS_ROUND or "[::-1]" in ast.unparse(each) for each in makers)
+            changed = any(
+                ast.unparse(call.func) in {f"{way}.{name}" for name in SHORTENS} for call, name in calls(owner)
+            )
+            cut = any(f"{way}[1:]" in ast.unparse(each) or "[1:]" in ast.unparse(each) for each in functions(owner))
+            read = [
+                node
+                for node in ast.walk(owner)
+                if isinstance(node, ast.Subscript) and ast.unparse(node.value) == way and isinstance(node.ctx, ast.Load)
+            ]
+            kinds = {ast.unparse(node.slice) for node in read}
+            if not makers or not turned or changed or cut or len(kinds) != 1:
+                continue
+            if kinds == {"0"}:
+                yield (
+                    read[0].lineno,
+                    "way",
+                    f"{way}[0] is the first cell of the way, in which the robot stands already, so it has no "
+                    "direction to steer to: steer to a cell further along, and take out those that are reached",
+                )
+            elif kinds == {"-1"}:
+                yield (
+                    read[0].lineno,
+                    "way",
+                    f"{way}[-1] is the end of the way, and the robot steers straight to it, through what the way goes "
+                    "round: follow the cells of the way one after another",
+                )
+
+
+def _is_a_list(target: ast.expr, value: ast.expr) -> bool:
+    return isinstance(target, ast.Attribute) and isinstance(value, ast.List) and not value.elts
+
+
+def _makes(function: ast.FunctionDef, way: str) -> bool:
+    """Return whether a function collects a way back from its goal: `cell = before[cell]` in a loop."""
+    if not any(ast.unparse(target) == way for target, _ in assigned(function)) or not called(function) & COLLECTS:
+        return False
+    return any(
+        isinstance(value, ast.Subscript) and ast.unparse(value.slice) == ast.unparse(target)
+        for loop in ast.walk(function)
+        if isinstance(loop, ast.While)
+        for target, value in assigned(loop)
+    )
+
+
+LOOKS = (ends_of_a_way,)

@@ -1,0 +1,1 @@
+"""Suspects in what a robot is steered by, and in drives."""
