@@ -16,6 +16,7 @@ from gz_course.grader.score.python_errors import meaning
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 INSTALLED = ("/site-packages/", "/lib/python3", "/sim/", "/gz_course/", "<")  # parts of paths of installed code
+COMMENT = re.compile(r"\s+#[^'\"]*$")
 LONGEST_CODE = 70  # characters of the student's line that are quoted
 
 # Errors of a node that is told to end.
@@ -36,7 +37,8 @@ class Crash:
     def place(self) -> str:
         if not self.file:
             return ""
-        return f"{self.file}, line {self.line}{f': {shown(self.code, LONGEST_CODE)}' if self.code else ''}"
+        code = COMMENT.sub("", self.code)
+        return f"{self.file}, line {self.line}{f': {shown(code, LONGEST_CODE)}' if code else ''}"
 
     @property
     def meaning(self) -> str:

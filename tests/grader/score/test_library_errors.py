@@ -54,7 +54,7 @@ def test_a_mistake_with_arrays_is_explained(mistake, words):
         (
             "InvalidParameterTypeException: Trying to set parameter 'distance' to '0.6' of type 'DOUBLE', expecting "
             "type 'INTEGER': distance",
-            "that of distance here is of type INTEGER",
+            "distance is of type INTEGER here",
         ),
         ("AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'", "those of ROS 1"),
         ("AttributeError: 'ServerGoalHandle' object has no attribute 'waypoints'", "goal_handle.request"),
