@@ -115,8 +115,8 @@ MEANINGS = (
             r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '([^']*)' of type '(\w+)', "
             r"expecting type '(\w+)'"
         ),
-        "the default in declare_parameter() gives a parameter its type: {0} is of type {3} here, but the value {1} that "
-        "is given from outside is of type {2}; a DOUBLE has a point, such as 1.0",
+        "the default in declare_parameter() gives a parameter its type: {0} is of type {3} here, but the value {1} "
+        "that is given from outside is of type {2}; a DOUBLE has a point, such as 1.0",
     ),
     (
         re.compile(r"ParameterAlreadyDeclaredException.*\buse_sim_time\b"),
