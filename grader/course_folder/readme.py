@@ -23,7 +23,7 @@ activate the environment that you have installed it in, and come to this folder.
 
 ```
 course doctor              # tries everything that the course needs on your machine
-course update              # after `pip install --upgrade gz-ros2-course`: newer chapters; your own work stays
+course update              # after `pip install --upgrade gz-ros2-course`: newer chapters; your own work is kept
 pip install 'gz-ros2-course[chapters]'    # JupyterLab, for the chapters
 ```"""
 
