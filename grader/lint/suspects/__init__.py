@@ -19,7 +19,9 @@ from gz_course.grader.lint.suspects.sensing import (
     farthest,
     gyroscopes,
     known_places,
+    nearest_searches,
     pictures,
+    ray_parts,
     rays,
     same_places,
 )
@@ -30,6 +32,7 @@ from gz_course.grader.lint.suspects.steering import (
     headings,
     sleeps,
     smoothing,
+    speed_limits,
     stale_parameters,
     steering_units,
     turning_signs,
@@ -67,6 +70,9 @@ LOOKS = (
     *sleeps.LOOKS,
     *forgetting.LOOKS,
     *straight_goals.LOOKS,
+    *speed_limits.LOOKS,
+    *nearest_searches.LOOKS,
+    *ray_parts.LOOKS,
     *way_ends.LOOKS,
     *turning_signs.LOOKS,
 )
