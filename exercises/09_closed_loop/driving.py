@@ -56,10 +56,10 @@ def circles(run):
     if len(rates) < 50 or abs(turned) < 2 or np.mean(np.sign(rates) == np.sign(turned)) < 0.98:
         return ""
     side, least = "left" if turned > 0 else "right", float(np.percentile(np.abs(rates), 5))
-    return (
-        f"the robot drives in circles, {abs(turned):.1f} of them: angular.z always turns it to the {side}, by "
-        f"{least:.1f} rad/s or more, so the error that it is made of never becomes small or changes its sign"
-    )
+    said = f"the robot drives in circles, {abs(turned):.1f} of them: angular.z always turns it to the {side}"
+    if least < 0.3:
+        return said
+    return f"{said}, by {least:.1f} rad/s or more, so the error that it is made of never becomes small"
 
 
 def speed_by_distance(run):

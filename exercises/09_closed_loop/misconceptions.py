@@ -26,6 +26,7 @@ def explain(run):
         SEARCHING["quarters"],
         SEARCHING["halves"],
         SEARCHING["ramp"],
+        SEARCHING["stuck"],
         SEARCHING["turns_to_one_side"],
         exchanged,
         never_drives,

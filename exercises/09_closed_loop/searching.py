@@ -88,6 +88,22 @@ def turns_to_one_side(run):
     )
 
 
+def stuck(run):
+    """Find out whether angular.z no longer changes from some time on, until the end."""
+    signal = run.recording.signal("topics/cmd_vel/angular/z")
+    other = np.flatnonzero(np.abs(signal.values - signal.values[-1:]) > 1e-3)
+    if len(signal.values) < FEWEST or not len(other) or abs(last := float(signal.values[-1])) < 0.1:
+        return ""
+    times, since = signal.times / 1e9, int(other[-1]) + 1
+    if times[-1] - times[since] < 5.0 or abs(last) > 1.45:
+        return ""
+    why = suspect(run.recording, "flag for ever")
+    return (
+        f"from {times[since]:.1f} s to the end angular.z is {last:.2f} rad/s in every command, whatever the lidar sees"
+        f"{': ' if why else ''}{why}"
+    )
+
+
 def exchanged(run, point, rates, asked, ahead):
     """Find out whether linear.x follows the wall as angular.z should, and angular.z the speed limit.
 

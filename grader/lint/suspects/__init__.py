@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.actions import goal_flags, goals, patrols, waypoint_loops
-from gz_course.grader.lint.suspects.memory import ages, aliases, hidden_errors, lookups, old_values, oldest
+from gz_course.grader.lint.suspects.memory import ages, aliases, flags, hidden_errors, lookups, old_values, oldest
 from gz_course.grader.lint.suspects.planning import forgetting, straight_goals, way_ends, ways
 from gz_course.grader.lint.suspects.sensing import (
     bearings,
@@ -72,6 +72,7 @@ LOOKS = (
     *straight_goals.LOOKS,
     *speed_limits.LOOKS,
     *nearest_searches.LOOKS,
+    *flags.LOOKS,
     *ray_parts.LOOKS,
     *way_ends.LOOKS,
     *turning_signs.LOOKS,
