@@ -31,12 +31,12 @@ def for_ever(tree: ast.Module) -> Iterator[Suspect]:
 def _choosing(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield the conditions on which a value of angular.z depends."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.IfExp):
+        if isinstance(node, ast.IfExp) or (isinstance(node, ast.If) and _sets_the_rate(node)):
             yield node.test
-        elif isinstance(node, ast.If) and "angular.z" in {
-            ast.unparse(target).partition(".")[2] for target, _ in assigned(node)
-        }:
-            yield node.test
+
+
+def _sets_the_rate(node: ast.If) -> bool:
+    return any(ast.unparse(target).endswith("angular.z") for target, _ in assigned(node))
 
 
 LOOKS = (for_ever,)
