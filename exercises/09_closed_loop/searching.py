@@ -12,7 +12,7 @@ NUMBER = re.compile(r"(\d+\.?\d*)(?: m)? are left out")
 
 def searched(run):
     """Find out, by the file, whether another range than the nearest of this scan counts."""
-    return suspect(run.recording, "nearest")
+    return suspect(run.recording, "nearest range")
 
 
 def left_out(run):
@@ -79,7 +79,7 @@ def turns_to_one_side(run):
     there = ahead[np.abs(signal.values - usual) < 1e-3]
     nearest = float(np.percentile(there, 90))
     all_there = np.abs(signal.values[ahead < 0.9 * nearest] - usual) < 1e-3
-    if run.sign * usual < 0.3 or nearest > 1.6 or abs(usual) > 1.45 or all_there.mean() < 0.8:
+    if run.sign * usual < 0.3 or nearest > 1.6 or abs(usual) > 1.45 or all_there.mean() < 0.5:
         return ""
     to = "left" if usual > 0 else "right"
     return (

@@ -30,7 +30,7 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
             if name.startswith("self.") and others and all(each[0] == "__init__" for each in others):
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
-                    "nearest",
+                    "nearest range",
                     f"{name} is the smallest range of all scans since the start, because nothing sets it back: begin "
                     "each scan with math.inf",
                 )
@@ -65,7 +65,7 @@ def ends_at_the_first(tree: ast.Module) -> Iterator[Suspect]:
                 name = found[id(node)]
                 yield (
                     node.body[-1].lineno,
-                    "nearest",
+                    "nearest range",
                     f"break ends the search at the first ray that sets {name}: all rays must be compared to find the "
                     "nearest, so remove it",
                 )
@@ -93,7 +93,7 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
                 if not inside and after and name not in kept:
                     yield (
                         target.lineno,
-                        "nearest",
+                        "nearest range",
                         f"{name} = {ast.unparse(value)} is done for each ray that is valid, so after the loop it is "
                         f"the last of them, not the nearest: do it only if {ast.unparse(value)} < {name}",
                     )

@@ -71,8 +71,8 @@ MEANINGS = (
     ),
     (
         re.compile(r"CvBridgeError: \[(\w+8)\] is a color format but \[(32FC1|16UC1)\] is not"),
-        "this message is a picture of colours ({0}), and it is read as depths ({1}): look at which topic it comes from; "
-        "the callback of a synchronizer gets its messages in the order of the subscribers",
+        "this message is a picture of colours ({0}), and it is read as depths ({1}): look at which topic it comes "
+        "from; the callback of a synchronizer gets its messages in the order of the subscribers",
     ),
     (
         re.compile(r"CvBridgeError: (?:.*is not a color format|.*do not have the same number of channel)"),
