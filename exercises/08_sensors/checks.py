@@ -209,12 +209,15 @@ def why_somewhere(recording, points, stamps, right):
             "the directions are right and the distances are wrong: the depth picture (encoding 32FC1: float32, metres) "
             "was read as something else, or at other pixels"
         )
-    if hits(placed(at, x, y), posts(recording)[0])[wrong].mean() <= 0.25:
-        return (
-            "most of the wrong points lie where no post stands, so walls or floor count as red: red is where R is much "
-            "larger than G and B, and numbers of 8 bits overflow (2 * 200 is 144)"
-        )
-    return ""
+    if hits(placed(at, x, y), posts(recording)[0])[wrong].mean() > 0.25:
+        return ""
+    said = "most of the wrong points lie where no post stands"
+    at_walls = np.abs(misconceptions().to_the_wall(at, np.arctan2(y, x)) - x) < 0.4
+    overflow = misconceptions().suspect(recording, "overflow")
+    if overflow or at_walls[wrong].mean() > 0.5:
+        why = overflow or "red is where R is much larger than G and B"
+        return f"{said}, so walls or floor count as red: {why}"
+    return said
 
 
 def why_beside(at, ahead, left, places, right):

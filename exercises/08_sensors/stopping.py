@@ -67,8 +67,27 @@ def away_from_it(recording):
     )
 
 
+def turned_far(recording):
+    """Return whether the robot turned by clearly more than half a turn towards the post; empty if not."""
+    first = CHECKS.counted(recording)
+    if first is None:
+        return ""
+    times = np.arange(first[0], recording.end_ns, 50_000_000)
+    yaw = CHECKS.truth(recording, "yaw", times)
+    turned = float(np.ptp(yaw)) if len(yaw) else 0.0
+    if turned < math.pi + 0.4:
+        return ""
+    why = suspect(recording, "wrap") or (
+        "the way to a direction is never longer than half a turn, so the difference of two angles needs "
+        "math.remainder(difference, 2 * math.pi)"
+    )
+    return f"after the number came it turned by {math.degrees(turned):.0f} degrees to face a post: {why}"
+
+
 def faced_nothing(recording, here, start):
     """Return in which wrong direction the robot looked at the end."""
+    if said := turned_far(recording):
+        return said
     red = CHECKS.posts(recording, "red")[0]
     nearest = red[int(np.argmin(np.linalg.norm(red - np.array(start[:2]), axis=1)))]
     wanted = math.remainder(math.atan2(nearest[1] - start[1], nearest[0] - start[0]) - start[2], 2 * math.pi)
@@ -86,7 +105,7 @@ def faced_nothing(recording, here, start):
 def still_moving(recording):
     """Return why the robot was moving at the end."""
     speed = recording.signal("topics/cmd_vel/linear/x")
-    if said := away_from_it(recording):
+    if said := turned_far(recording) or away_from_it(recording):
         return said
     late = speed.values[speed.times > recording.end_ns - 3e9]
     if len(speed) and speed.times[-1] < recording.end_ns - 1e9:

@@ -56,10 +56,10 @@ def circles(run):
     if len(rates) < 50 or abs(turned) < 2 or np.mean(np.sign(rates) == np.sign(turned)) < 0.98:
         return ""
     side, least = "left" if turned > 0 else "right", float(np.percentile(np.abs(rates), 5))
-    return (
-        f"the robot drives in circles, {abs(turned):.1f} of them: angular.z always turns it to the {side}, by "
-        f"{least:.1f} rad/s or more, so the error that it is made of never becomes small or changes its sign"
-    )
+    said = f"the robot drives in circles, {abs(turned):.1f} of them: angular.z always turns it to the {side}"
+    if least < 0.3:
+        return said
+    return f"{said}, by {least:.1f} rad/s or more, so the error that it is made of never becomes small"
 
 
 def speed_by_distance(run):
@@ -152,6 +152,11 @@ def weak(run):
     worst = float(np.abs(run.error[late][np.isfinite(run.error[late])]).max(initial=0.0))
     if not len(rates) or not 0.01 < rates.max() < 0.6 or worst < 0.25:
         return ""
+    if abs(rates.max() - np.radians(1.5)) < 1e-4:
+        return (
+            "angular.z was 0.026 rad/s at most, which is 1.5 degrees per second: 1.5 rad/s are allowed, so convert "
+            "nothing"
+        )
     return (
         f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
         "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
@@ -171,4 +176,16 @@ def against_a_wall(run):
     return (
         f"the robot ran into a wall at {run.times[first]:.1f} s and got no further: in the 1.5 s before it {how}, by "
         f"{abs(rate):.1f} rad/s on average"
+    )
+
+
+def elsewhere(run, settled):
+    """Find out whether the robot is far from the distance asked for most of the time, once it has settled [s]."""
+    late = (run.times > settled) & (run.times < run.changed)
+    usual, asked = float(np.median(run.distance[late])), float(run.asked[0])
+    if not np.isfinite(usual) or abs(usual - asked) < 0.2:
+        return ""
+    return (
+        f"the robot is {usual:.2f} m from the nearest point of its wall most of the time, where {asked:g} m is asked "
+        "for: print what your node takes for that distance, and angular.z beside it"
     )

@@ -10,6 +10,7 @@ from gz_course.grader.score.suspects import suspect
 STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
 LAW = runpy.run_path(str(Path(__file__).with_name("law.py")))
 DRIVING = runpy.run_path(str(Path(__file__).with_name("driving.py")))
+SEARCHING = runpy.run_path(str(Path(__file__).with_name("searching.py")))
 SETTLED = 7.0  # [s] after the start
 KEPT = 0.08  # [m] within which a distance is kept
 BEHIND = "behind the robot"
@@ -20,6 +21,14 @@ def explain(run):
     """Return the misconception that fits the run; empty if none does."""
     looks = (
         open_loop,
+        SEARCHING["searched"],
+        SEARCHING["left_out"],
+        SEARCHING["quarters"],
+        SEARCHING["halves"],
+        SEARCHING["ramp"],
+        SEARCHING["stuck"],
+        SEARCHING["turns_to_one_side"],
+        exchanged,
         never_drives,
         rare_commands,
         in_degrees,
@@ -58,7 +67,7 @@ def explain(run):
         swings,
         DRIVING["weak"],
         DRIVING["against_a_wall"],
-        elsewhere,
+        lambda run: DRIVING["elsewhere"](run, SETTLED),
         DRIVING["slow"],
     )
     if len(scans(run)[0]):
@@ -142,13 +151,25 @@ def unchanging(run):
 
 
 def one_way(run):
-    return LAW["one_way"](run, *point_and_rates(run)) if len(scans(run)[0]) else ""
+    if not len(scans(run)[0]) or not (said := LAW["one_way"](run, *point_and_rates(run))):
+        return ""
+    return LAW["offset"](*point_and_rates(run, standing=True)) or said
 
 
 def late(run):
     """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
     why = suspect(run.recording, "delay", "farthest")
     return why or (LAW["late"](*point_and_rates(run, standing=True), moving(run)) if len(scans(run)[0]) else "")
+
+
+def exchanged(run):
+    times = scans(run)[0]
+    if not len(times):
+        return ""
+    point, rates, asked = point_and_rates(run, standing=True)
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    index = np.searchsorted(signal.times / 1e9, times[STEERING["answered"](run, times)[0]]) + run.lag
+    return SEARCHING["exchanged"](run, point, rates, asked, signal.values[np.minimum(index, len(signal.values) - 1)])
 
 
 def moving(run):
@@ -220,7 +241,7 @@ def mean_of_the_side(run):
 def on_off(run):
     values = run.recording.signal("topics/cmd_vel/angular/z").values
     found = np.unique(np.round(values[np.abs(values) > 0.01], 2))
-    if len(values) < 50 or len(found) not in (2, 3) or found[0] >= 0 or found[-1] <= 0:
+    if len(values) < 50 or len(found) not in (2, 3) or found[0] >= 0 or found[-1] <= 0 or found[-1] < 0.1:
         return ""
     return (
         f"angular.z was only ever {', '.join(f'{value:g}' for value in found)} rad/s: on/off control overshoots at "
@@ -327,17 +348,6 @@ def swings(run):
     if len(scans(run)[0]) and LAW["heeds_heading"](*point_and_rates(run)):
         return f"{said}: angular.z answers the distance too strongly, or too late, beside the heading"
     return f"{said}: only the distance is fed back, or the gain is too high for the time between two scans"
-
-
-def elsewhere(run):
-    late = (run.times > SETTLED) & (run.times < run.changed)
-    usual, asked = float(np.median(run.distance[late])), float(run.asked[0])
-    if not np.isfinite(usual) or abs(usual - asked) < 0.2:
-        return ""
-    return (
-        f"the robot is {usual:.2f} m from the nearest point of its wall most of the time, where {asked:g} m is asked "
-        "for: your node measures to something else than that point, such as one fixed direction, or a gain is too low"
-    )
 
 
 def scans(run):

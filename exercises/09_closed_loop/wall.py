@@ -133,6 +133,8 @@ def keeps_distance(recording, parameters):
     run = Run(recording)
     tolerance, share, settle = parameters["tolerance"], parameters["share"], parameters["settle"]
     second = parameters.get("changed", False)
+    if second and not np.isfinite(run.changed):  # the run ended early, or the parameter has not been declared
+        return _finding(run, False, "the parameter distance is set while the node runs", "it was not set in this run")
     start, end = (run.changed + settle, run.times[-1]) if second else (settle, min(run.changed, run.times[-1]))
     wanted = run.asked[-1 if second else 0]
     where = f"{wanted:g} m ± {tolerance:g} m from the wall on the {run.side}"
@@ -206,11 +208,21 @@ def keeps_limits(recording, parameters):
                 f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: "
                 f"{suspect(recording, 'parameter speed_limit', 'parameter') or 'the old limit still counts'}"
                 if old
-                else (DRIVING["speed_by_distance"](run) if name == "linear/x" else suspect(recording, "limit"))
+                else (too_fast(run, worst) if name == "linear/x" else suspect(recording, "limit"))
                 or limits_missed(name.replace("/", "."), signal.values, low, high)
             )
             return Finding(False, expected, seen, round(float(at), 2), explanation=why)
     return Finding(True, expected, "every command was")
+
+
+def too_fast(run, worst):
+    """Return why linear.x goes up to `worst` [m/s]; empty if it is negative, or nothing is known."""
+    said = suspect(run.recording, "parameter speed_limit")
+    if worst < 0 or (why := DRIVING["speed_by_distance"](run)):
+        return why if worst > 0 else ""
+    why = suspect(run.recording, "speed limit") or (said if "nothing reads it" in said else "")
+    why = why or "it does not limit what is sent in the end"
+    return f"linear.x goes up to {worst:.2f} m/s, and speed_limit is {run.limit:g} m/s: {why}"
 
 
 def limits_missed(name, values, low, high):

@@ -37,8 +37,15 @@ def parameter_not_set(recording: Recording, facts: dict[str, Any]) -> str:
             )
         else:
             said = "had no answer: a node answers only while it spins, and not while one of its callbacks waits"
+            said += _sleep(facts)
         return shown(f"{command} {said}.", 500)
     return ""
+
+
+def _sleep(facts: dict[str, Any]) -> str:
+    """Say which line sleeps in a callback, if a slip in the file is that; empty if none is."""
+    found = (each for each in facts.get("slips", []) if "sleep" in each["said"])
+    return next((f": line {each['line']}: {each['said']}" for each in found), "")
 
 
 def _refusal(facts: dict[str, Any]) -> str:

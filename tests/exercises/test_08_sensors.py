@@ -288,3 +288,27 @@ def test_a_robot_that_backs_away_from_the_post():
     hall.signals["truth/robot/distance"] = (times, np.where(times > 12, 0.1 * (times - 12), 0))
     hall.signals["truth/robot/linear_x"] = (times, np.where(times > 12, -0.1, 0))
     assert "it drives backwards" in hall.found("stops_before_the_post").explanation
+
+
+def test_a_robot_that_turns_the_long_way_to_the_post():
+    hall = Hall(stop=0.5)
+    times, yaw = hall.signals["truth/robot/yaw"]
+    assert WORDS["STOPPING"].turned_far(hall) == ""
+    hall.signals["truth/robot/yaw"] = (times, np.where(times > 11.0, yaw - 2 * np.pi, yaw))
+    assert "after the number came it turned by 356 degrees" in WORDS["STOPPING"].turned_far(hall)
+
+
+def test_points_where_no_post_stands_are_put_down_to_walls_only_if_they_lie_there():
+    hall = Hall(lambda a, b: (0.4, 0.4))
+    assert "walls or floor" not in hall.found("places_the_posts").explanation
+    beside = Hall(lambda a, b: (0.5 + 0.3 * a, 0.5))
+    beside.suspects = [{"about": "overflow", "line": 9, "said": "2 * green overflows"}]
+    said = CHECKS["why_somewhere"](beside, *_given(beside))
+    assert "walls or floor count as red: line 9: 2 * green overflows" in said
+    beside.suspects = []
+    assert "walls" not in CHECKS["why_somewhere"](beside, *_given(beside))
+
+
+def _given(hall):
+    points, stamps, _ = CHECKS["said_points"](hall)
+    return points, stamps, np.zeros(len(points), bool)

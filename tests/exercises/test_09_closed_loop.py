@@ -13,6 +13,7 @@ FOLDER = Path(__file__).parents[2] / "exercises/09_closed_loop"
 STEERING = runpy.run_path(str(FOLDER / "steering.py"))
 LAW = runpy.run_path(str(FOLDER / "law.py"))
 DRIVING = runpy.run_path(str(FOLDER / "driving.py"))
+SEARCHING = runpy.run_path(str(FOLDER / "searching.py"))
 WALL = runpy.run_path(str(FOLDER / "wall.py"))
 
 BEARINGS = np.linspace(-np.pi, np.pi, 180, endpoint=False)
@@ -247,3 +248,54 @@ def test_circles_are_named():
     assert "in circles, 5.7 of them: angular.z always turns it to the left" in DRIVING["circles"](run)
     run.turning = np.where(np.arange(300) % 50 < 25, 1.2, -1.2)
     assert DRIVING["circles"](run) == ""
+
+
+def test_two_commands_for_each_scan_are_named():
+    halves = np.arange(600) % 2
+    stamps = (np.arange(600) // 2 * 50_000_000 + halves * 1_000_000).astype(np.int64)
+    run = driven(0.0, 0.4, 0.6)
+    run.recording.signal = lambda name: Signal(stamps, 0.4 * (halves if name.endswith("z") else 1 - halves))
+    assert "answered by two commands" in SEARCHING["halves"](run)
+    run.recording.signal = lambda name: Signal(stamps, np.full(600, 0.4))
+    assert SEARCHING["halves"](run) == ""
+
+
+def test_a_rate_that_changes_by_small_steps_is_named():
+    wave = np.sin(np.arange(300) / 30)
+    steps = np.cumsum(0.02 * np.sign(wave))
+    assert "never changes by more than 0.02 rad/s" in SEARCHING["ramp"](driven(steps, 0.4, 0.6))
+    assert SEARCHING["ramp"](driven(wave, 0.4, 0.6)) == ""
+
+
+def test_a_turn_before_a_wall_that_does_not_change_with_the_side_is_named():
+    ahead = 0.5 + np.abs(3 * np.sin(np.arange(300) / 10))
+    for side, sign, words in (("right", -1.0, "a turn to the right, and side is 'right'"), ("left", 1.0, "")):
+        run = driven(np.where(ahead < 1.0, -1.2, 0.1), 0.4, 0.6, side)
+        run.sign, run.ahead = sign, ahead
+        said = SEARCHING["turns_to_one_side"](run)
+        assert words in said and bool(words) == bool(said)
+
+
+def test_linear_and_angular_that_are_exchanged_are_named(seen):
+    point, asked = law(seen)
+    error, away = errors(point, asked)
+    right = np.clip(4 * error + 2 * away, -1.5, 1.5)
+    run = SimpleNamespace(limit=0.5, sign=1.0)
+    assert "linear.x and angular.z are exchanged" in SEARCHING["exchanged"](run, point, 0 * right + 0.4, asked, right)
+    assert SEARCHING["exchanged"](run, point, right, asked, 0 * right + 0.4) == ""
+
+
+def test_a_run_that_ends_before_the_parameter_is_set_has_no_time_of_it(monkeypatch):
+    check = WALL["keeps_distance"]
+    run = SimpleNamespace(changed=np.inf, times=np.arange(0.0, 10.0, 0.1), asked=np.array([0.6]))
+    monkeypatch.setitem(check.__globals__, "Run", lambda recording: run)
+    monkeypatch.setitem(check.__globals__, "_finding", lambda *given: given)
+    found = check(None, {"tolerance": 0.2, "share": 0.8, "settle": 6.0, "way": 1.0, "changed": True})
+    assert found == (run, False, "the parameter distance is set while the node runs", "it was not set in this run")
+
+
+def test_a_rate_that_stays_the_same_to_the_end_is_named():
+    turns = np.sin(np.arange(300) / 20)
+    assert SEARCHING["stuck"](driven(turns, 0.4, 0.6)) == ""
+    said = SEARCHING["stuck"](driven(np.where(np.arange(300) < 200, turns, -1.0), 0.4, 0.6))
+    assert said.startswith("from 20.0 s to the end angular.z is -1.00 rad/s in every command")

@@ -19,7 +19,7 @@ from gz_course.grader.lint.slips.clocks import (
     starts,
     time_units,
 )
-from gz_course.grader.lint.slips.geometry import angles, limits, rotations, searches, sorted_rays
+from gz_course.grader.lint.slips.geometry import angles, limited_values, limits, rotations, searches, sorted_rays
 from gz_course.grader.lint.slips.language import (
     conditions,
     everyday,
@@ -30,6 +30,7 @@ from gz_course.grader.lint.slips.language import (
     none_tests,
     not_what_they_seem,
     one_array,
+    own_calls,
     resets,
     results,
     sequences,
@@ -63,7 +64,7 @@ ROOMS = (
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
     endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
-    one_array.LOOKS, endless_waits.LOOKS,
+    one_array.LOOKS, endless_waits.LOOKS, own_calls.LOOKS, limited_values.LOOKS,
 )  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.actions import goal_flags, goals, patrols, waypoint_loops
-from gz_course.grader.lint.suspects.memory import ages, aliases, hidden_errors, lookups, old_values, oldest
+from gz_course.grader.lint.suspects.memory import ages, aliases, flags, hidden_errors, lookups, old_values, oldest
 from gz_course.grader.lint.suspects.planning import forgetting, straight_goals, way_ends, ways
 from gz_course.grader.lint.suspects.sensing import (
     bearings,
@@ -19,7 +19,9 @@ from gz_course.grader.lint.suspects.sensing import (
     farthest,
     gyroscopes,
     known_places,
+    nearest_searches,
     pictures,
+    ray_parts,
     rays,
     same_places,
 )
@@ -30,6 +32,7 @@ from gz_course.grader.lint.suspects.steering import (
     headings,
     sleeps,
     smoothing,
+    speed_limits,
     stale_parameters,
     steering_units,
     turning_signs,
@@ -67,6 +70,10 @@ LOOKS = (
     *sleeps.LOOKS,
     *forgetting.LOOKS,
     *straight_goals.LOOKS,
+    *speed_limits.LOOKS,
+    *nearest_searches.LOOKS,
+    *flags.LOOKS,
+    *ray_parts.LOOKS,
     *way_ends.LOOKS,
     *turning_signs.LOOKS,
 )

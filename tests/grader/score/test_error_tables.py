@@ -40,6 +40,7 @@ ERRORS = (
     "AttributeError: type object 'str' has no attribute '_TYPE_SUPPORT'",
     "ConnectivityException: Could not find a connection between 'odom' and 'map'",
     "CvBridgeError: encoding specified as rgb8, but image has incompatible type: 32FC1 is not a color format",
+    "CvBridgeError: [rgb8] is a color format but [32FC1] is not so they must have the same OpenCV type, CV_8UC3",
     "EOFError: EOF when reading a line",
     "ExtrapolationException: Lookup would require extrapolation",
     "ImportError: cannot import name 'Laserscan' from 'sensor_msgs.msg' (msg/__init__.py)",

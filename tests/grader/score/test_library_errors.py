@@ -115,3 +115,8 @@ def test_a_flag_of_cancellations_that_stays_is_named_with_the_error(record):
 
 def test_nothing_is_said_where_execute_raised_nothing(record):
     assert execute_raised(record({}, lines=[(1.0, "[INFO] [a]: Goal accepted")], submission="node.py"), {}) == ""
+
+
+def test_a_colour_picture_that_is_read_as_depths_is_explained():
+    said = "CvBridgeError: [rgb8] is a color format but [32FC1] is not so they must have the same OpenCV type, CV_8UC3"
+    assert "in the order of the subscribers" in meaning(said)

@@ -1,14 +1,16 @@
-"""Attributes that are never anything but None, although a callback waits until they are set."""
+"""Attributes that are never set again: None for which a callback waits, a previous value that stays the first."""
 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.syntax import Place
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 LEAVES = ast.Return | ast.Continue | ast.Raise
+PREVIOUS = re.compile(r"(^|_)(last|prev|previous|old|before)(_|$)")
 
 
 def waits_for_ever(tree: ast.AST) -> Iterator[Place]:
@@ -88,4 +90,31 @@ def _twice(set_in: dict[str, list[str]]) -> str:
     return ""
 
 
-LOOKS = (waits_for_ever,)
+def previous_stays(tree: ast.AST) -> Iterator[Place]:
+    """Find `error - self.last_error` where nothing but `__init__` sets `last_error`, and it sets it to a number."""
+    if any(isinstance(each, ast.Name) and each.id in ("setattr", "vars") for each in ast.walk(tree)):
+        return
+    set_in: dict[str, list[str]] = {}
+    first: dict[str, ast.expr] = {}
+    for function in _functions(tree):
+        for node in ast.walk(function):
+            if isinstance(node, ast.Attribute) and not isinstance(node.ctx, ast.Load):
+                set_in.setdefault(node.attr, []).append(function.name)
+            if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
+                first[node.targets[0].attr] = node.value
+    for function in _functions(tree):
+        for node in ast.walk(function):
+            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub) or function.name == "__init__":
+                continue
+            for name in _own(node.right):
+                value = first.get(name)
+                number = isinstance(value, ast.Constant) and type(value.value) in (int, float)
+                if number and PREVIOUS.search(name) and set_in.get(name) == ["__init__"]:
+                    yield (
+                        node.lineno,
+                        f"self.{name} stays {ast.unparse(first[name])}, because only __init__ sets it, so "
+                        f"{ast.unparse(node)[:60]} is no change: set it to the new value at the end of each call",
+                    )
+
+
+LOOKS = (waits_for_ever, previous_stays)

@@ -71,9 +71,10 @@ def changed_after_publish(tree: ast.AST) -> Iterator[Place]:
             if not name or name.startswith("self."):
                 continue
             later = block[i + 1 :]
-            if any(_makes(each, name) for each in later) or _published_again(function, statement, name):
+            made = any(_makes(each, name) for outer in later for each in _statements(outer))
+            if made or _published_again(function, statement, name):
                 continue
-            for each in later:
+            for each in (inner for outer in later for inner in _statements(outer)):
                 if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]).startswith(f"{name}."):
                     yield (
                         each.lineno,

@@ -102,4 +102,33 @@ def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (shapes, indices, middles, means_of_depths)
+def overflows(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the channel of a picture of 8 bits that is multiplied, added or subtracted as it is."""
+    pictures = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if "imgmsg_to_cv2" in called(value) and not called(value) & {"astype", "int32", "float32", "array", "asarray"}
+        and not re.search(r"32FC1|16UC1|depth", ast.unparse(value))
+    }  # fmt: skip
+    channels = {ast.unparse(target) for target, value in assigned(tree) if _is_channel(value, pictures)}
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult | ast.Add | ast.Sub):
+            continue
+        for side, other in ((node.left, node.right), (node.right, node.left)):
+            whole = isinstance(other, ast.Constant) and type(other.value) is int
+            both = ast.unparse(other) in channels or _is_channel(other, pictures)
+            if (ast.unparse(side) in channels or _is_channel(side, pictures)) and (whole or both):
+                yield (
+                    node.lineno,
+                    "overflow",
+                    f"{ast.unparse(node)[:60]} overflows, because a picture has numbers of 8 bits (2 * 200 is 144): "
+                    "convert it first, .astype(int)",
+                )
+                return
+
+
+def _is_channel(value: ast.expr, pictures: set[str]) -> bool:
+    return isinstance(value, ast.Subscript) and ast.unparse(value.value) in pictures
+
+
+LOOKS = (shapes, indices, middles, means_of_depths, overflows)

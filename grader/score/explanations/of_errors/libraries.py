@@ -70,6 +70,11 @@ MEANINGS = (
         "a message of the type {0} is no array: CvBridge().imgmsg_to_cv2(message, 'rgb8') makes one",
     ),
     (
+        re.compile(r"CvBridgeError: \[(\w+8)\] is a color format but \[(32FC1|16UC1)\] is not"),
+        "this message is a picture of colours ({0}), and it is read as depths ({1}): look at which topic it comes "
+        "from; the callback of a synchronizer gets its messages in the order of the subscribers",
+    ),
+    (
         re.compile(r"CvBridgeError: (?:.*is not a color format|.*do not have the same number of channel)"),
         "a picture of colours and one of numbers (32FC1: depth in metres) cannot be converted into each other: ask for "
         "rgb8 for the camera's, 32FC1 for the depth camera's",

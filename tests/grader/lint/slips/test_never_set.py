@@ -55,3 +55,15 @@ def test_a_coroutine_or_another_object_sets_it():
     assert slips(RIGHT.replace("def on_front", "async def on_front").encode()) == []
     other = RIGHT.replace("self.front = message.pose.pose", "pass") + "\nnode.front = 1\n"
     assert not any("for ever" in each["said"] for each in slips(other.encode()))
+
+
+@pytest.mark.parametrize(
+    ("later", "words"),
+    [("pass", ["self.last_error stays 0.0"]), ("self.last_error = error", []), ("self.last_error += 1", [])],
+)
+def test_a_previous_value_that_is_never_set(later, words):
+    code = RIGHT.replace("self.own = None\n", "self.own = None\n        self.last_error = 0.0\n").replace(
+        "        self.publisher", f"        change = error - self.last_error\n        {later}\n        self.publisher"
+    )
+    said = [place["said"] for place in slips(code.encode())]
+    assert len(said) == len(words) and all(word in each for word, each in zip(words, said, strict=True)), said

@@ -133,6 +133,8 @@ WRONG = {
     "self.done =+ 1 sets it to 1": ("self.done = True", "self.done =+ 1"),
     "is set after publish(command)": ("self.publisher.publish(command)",
      "self.publisher.publish(command)\n        command.linear.x = 0.0"),
+    "command.linear.x is set after publish": ("self.publisher.publish(command)",
+     "self.publisher.publish(command)\n        if self.done:\n            command.linear.x = 0.0"),
     "stop, a Twist, is made here and never used": ("            self.done = True",
      "            stop = Twist()\n            stop.linear.x = 0.0"),
     "is always true, because 'turn' is": ("elapsed < SECONDS", "self.state == 'go' or 'turn'"),
