@@ -7,6 +7,8 @@ FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead
 FEWEST = 20  # samples of a robot that drives
 TURNS = 0.02  # [rad/s] a robot that turns less steers by no angle
 REACHED = 0.17  # [m]
+BESIDE = 0.8  # [m] from a waypoint
+STRAIGHT = 0.05  # [rad/s]
 ENOUGH = 2.0  # [m] of the way, before the robot comes to a wall
 HALF_A_SECOND = 10  # samples
 ASIDE = 0.8  # [rad]
@@ -79,6 +81,22 @@ def wrong_bearing(run, chosen, points):
             "heading, so it circles: let it drive only while the angle to turn by is small"
         )
     return ""
+
+
+def driven_past(run, chosen, points):
+    """Find out whether a robot drives past a waypoint on a straight line, without turning while it drives."""
+    way, speed, rate = (each[chosen] for each in (run.way, run.linear.values, run.angular.values))
+    missed, after = _missed(way, points)
+    left = np.hypot(*(way[after:] - missed).T)
+    nearest = int(np.argmin(left))
+    driving = speed[after:] > DRIVES
+    straight = driving[: nearest + 1].sum() >= FEWEST and np.abs(rate[after:][driving]).max(initial=0.0) < STRAIGHT
+    if not straight or left[nearest] > BESIDE or left[nearest:].max() < left[nearest] + 0.3:
+        return ""
+    return (
+        f"The robot drives straight past the waypoint, {left[nearest]:.2f} m beside it: angular.z is 0 while it "
+        "drives, so the error that is left when it sets off is never corrected"
+    )
 
 
 def _turned_past(error, speed):

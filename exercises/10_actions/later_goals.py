@@ -1,6 +1,7 @@
 """Why a goal beside or after the first one fails: it spoils the one under way, is refused, or goes elsewhere."""
 
 import json
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,6 +13,7 @@ SOON = 0.6  # [s] after a second goal was accepted: who ends the patrol then end
 LONG = 3.0  # [s] without feedback
 GOES = 0.03  # [m/s] a robot that is slower stands
 THERE = 0.17  # [m] from a waypoint
+MANY = 20  # commands
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 HEADED = {
     "waypoints are taken as seen from where the patrol begins; they are places in the frame odom": lambda p, c, s: p,
@@ -34,10 +36,55 @@ def spoilt(run):
         return "the robot stopped then, and the patrol under way went no further"
     if follows(run, taken["at"]):
         return "the robot left the patrol under way for its waypoint"
+    if unchanged(run, taken["at"] + SOON):
+        return "the patrol under way got no new place from /odom after that, as if no thread were left for it"
     said = run.all("feedback", "patrol")
     if found is None and said and said[-1]["at"] < taken["at"] + SOON and run.end > taken["at"] + LONG:
         return "neither feedback nor a result of the patrol under way came after that"
     return ""
+
+
+def unchanged(run, since):
+    """Return whether a server sends the same command again and again, and the same distance, after a time [s]."""
+    _, end = run.period("patrol")
+    sent = []
+    for name in ("linear/x", "angular/z"):
+        signal = run.recording.signal(f"topics/cmd_vel/{name}")
+        sent.append(signal.values[(signal.times / 1e9 > since) & (signal.times / 1e9 < end)])
+    said = {each["distance"] for each in run.all("feedback", "patrol") if since < each["at"] < end}
+    return len(said) == 1 and min(map(len, sent)) > MANY and all(np.ptp(each) == 0 for each in sent)
+
+
+def leftover(run):
+    """Return that the patrol after the cancelled one drives to a waypoint of that one first; empty if it does not."""
+    found, cancelled = run.one("result", "again"), run.one("result", "cancelled")
+    if found is None or cancelled is None:
+        return ""
+    start, end = run.period("again")
+    way = run.way[(run.times >= start) & (run.times <= end)]
+    before = run.way[run.times <= cancelled["at"]]
+    for point in map(np.array, run.waypoints("cancelled")):
+        if not len(way) or np.hypot(*(before - point).T).min() <= THERE:
+            continue
+        ends = np.array([way[0], *run.waypoints("again")], dtype=float)
+        if np.hypot(*(way - point).T).min() < THERE and _beside(point, ends) > 2 * THERE:
+            said = suspect(run.recording, "anew", "kept_list")
+            where = ", ".join(f"{value:g}" for value in point)
+            return (
+                f"The patrol after the cancelled one drives to ({where}), which is a waypoint of the cancelled one: "
+                f"{said or 'what was kept of that one has to be emptied where the next begins'}"
+            )
+    return ""
+
+
+def _beside(point, corners):
+    """Return how far a point is from the straight lines between corners (n, 2) [m]."""
+    off = []
+    for one, other in pairwise(corners):
+        along = other - one
+        share = np.clip((point - one) @ along / max(along @ along, 1e-9), 0.0, 1.0)
+        off.append(float(np.hypot(*(point - one - share * along))))
+    return min(off)
 
 
 def follows(run, since):

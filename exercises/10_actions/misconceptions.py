@@ -27,7 +27,7 @@ def went_elsewhere(run, goal, until):
         return ""
     if np.hypot(*(way - way[0]).T).max() < MOVED:
         return stood(run, chosen)
-    if said := suspect(run.recording, "summed_place", "heading", "angle"):
+    if said := suspect(run.recording, "no_place", "summed_place", "heading", "angle"):
         return said
     if words := other_places(way, points):
         return f"The robot went elsewhere: {words}"
@@ -37,7 +37,12 @@ def went_elsewhere(run, goal, until):
         return f"A waypoint counts as reached where the robot is not: {said}"
     if words := last_only(run, way, points):
         return words
-    return blind(run, goal) or BEARINGS.wrong_bearing(run, chosen, points) or turned_wrong(run, chosen, points)
+    return (
+        blind(run, goal)
+        or BEARINGS.wrong_bearing(run, chosen, points)
+        or turned_wrong(run, chosen, points)
+        or BEARINGS.driven_past(run, chosen, points)
+    )
 
 
 def last_only(run, way, points):
@@ -132,7 +137,11 @@ def turned_wrong(run, chosen, points):
             "is atan2(dy, dx) - heading"
         )
     if clear.sum() < 10 and np.mean(np.abs(error) > 0.3) > 0.5 and np.abs(rate).max(initial=0.0) < 0.05:
-        return "The robot never turns towards the waypoint: angular.z stays 0 although the waypoint is beside it"
+        said = suspect(run.recording, "phase")
+        return (
+            "The robot never turns towards the waypoint: "
+            f"{said or 'angular.z stays 0 although the waypoint is beside it'}"
+        )
     return ""
 
 
@@ -144,8 +153,8 @@ def blind(run, goal):
             return f"The server takes the robot to be where it was at first: {kept}"
         return (
             "The patrol never ended: the loop in execute does not see where the robot is, because its distance never "
-            "changes. While it runs, /odom needs a thread of its own, that of a MultiThreadedExecutor, and a callback "
-            "group that lets both run; and the loop must read the place again"
+            "changes: it must read the place again in every iteration, the callback of /odom must keep it, and while "
+            "the loop runs, /odom needs a thread of its own, that of a MultiThreadedExecutor"
         )
     return ""
 
@@ -190,11 +199,15 @@ def reached_early(run, goal):
 
 
 def by_reckoning(run, goal):
-    """Find out whether the distances of the feedback go to 0 without the robot: its time, or its steps, are counted."""
+    """Find out whether the distances of the feedback go to 0 without the robot, and what they are instead."""
     said, points = run.all("feedback", goal), np.array(run.waypoints(goal), dtype=float)
     said = [each for each in said if 0 <= each["waypoint"] < len(points)]
     if len(said) < 5:
         return ""
+    for words, values in other_feedback(run, said, points.tolist()):
+        given = np.array([each["distance"] for each in said])
+        if np.mean(np.abs(values - given) <= 0.05 * max(1.0, np.abs(given).max() / 4)) >= 0.9 and np.ptp(given) > 0.3:
+            return f"A waypoint counts as reached where the robot is not: the distance of your server is {words}"
     way = run.way[np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)]
     index, given = np.array([each["waypoint"] for each in said]), np.array([each["distance"] for each in said])
     left = np.hypot(*(way - points[index]).T)
@@ -202,8 +215,8 @@ def by_reckoning(run, goal):
     if all(given[i] < 0.2 for i in lasts) and max(left[i] - given[i] for i in lasts) > 0.1:
         return (
             f"Your server takes a waypoint for reached that is still {max(left[i] for i in lasts):.2f} m away, where "
-            f"its own distance says {min(given[i] for i in lasts):.2f} m: it counts time or steps, and does not look "
-            "where /odom says that the robot is; that decides when a waypoint is reached"
+            f"its own distance says {min(given[i] for i in lasts):.2f} m: either its distance is computed wrongly, or "
+            "it counts time or steps, and does not look where /odom says that the robot is"
         )
     return ""
 

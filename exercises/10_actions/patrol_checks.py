@@ -22,12 +22,8 @@ STILL = 1.5  # [s] before the end of a run: who sends feedback then is still dri
 STOPPED = 0.5  # [s] after the cancellation
 MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
-GOALS = {
-    "empty": "a goal without waypoints",
-    "too_fast": "a speed above max_speed",
-    "backwards": "a negative speed",
-    "standing": "a speed of 0",
-}
+REFUSALS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("refusals.py"))))
+GOALS = {goal: words for goal, (words, _) in REFUSALS.GOALS.items()}
 
 
 class Run:
@@ -137,7 +133,8 @@ def rejects(recording, parameters):
         return gate
     for goal, words in GOALS.items():
         if event := run.one("accepted", goal):
-            return Finding(False, expected, f"your server accepted {words}", event["at"])
+            why = REFUSALS.accepted(run)
+            return Finding(False, expected, f"your server accepted {words}", event["at"], explanation=why)
         if not run.one("rejected", goal):
             return Finding(False, expected, f"your server never answered to {words}")
     return Finding(True, expected, "each of the four was rejected")
@@ -346,6 +343,8 @@ def busy(recording, parameters):
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"
     why = "" if passed else LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "again")
+    why = LATER.leftover(run) or why
+    passed = passed and not why
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
 

@@ -19,7 +19,7 @@ from gz_course.grader.lint.slips.clocks import (
     starts,
     time_units,
 )
-from gz_course.grader.lint.slips.geometry import angles, limits, rotations, searches, sorted_rays
+from gz_course.grader.lint.slips.geometry import angles, euler_angles, limits, rotations, searches, sorted_rays
 from gz_course.grader.lint.slips.language import (
     conditions,
     everyday,
@@ -59,7 +59,7 @@ ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS,
     never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
-    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,
+    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS, euler_angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
     endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
