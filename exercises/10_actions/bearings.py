@@ -89,9 +89,10 @@ def driven_past(run, chosen, points):
     missed, after = _missed(way, points)
     left = np.hypot(*(way[after:] - missed).T)
     nearest = int(np.argmin(left))
-    driving = speed[after:] > DRIVES
-    straight = driving[: nearest + 1].sum() >= FEWEST and np.abs(rate[after:][driving]).max(initial=0.0) < STRAIGHT
-    if not straight or left[nearest] > BESIDE or left[nearest:].max() < left[nearest] + 0.3:
+    driving = speed[after : after + nearest + 1] > DRIVES
+    if driving.sum() < FEWEST or np.quantile(np.abs(rate[after : after + nearest + 1][driving]), 0.8) > STRAIGHT:
+        return ""
+    if left[nearest] > BESIDE or left[nearest:].max() < left[nearest] + 0.3:
         return ""
     return (
         f"The robot drives straight past the waypoint, {left[nearest]:.2f} m beside it: angular.z is 0 while it "

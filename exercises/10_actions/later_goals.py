@@ -13,7 +13,6 @@ SOON = 0.6  # [s] after a second goal was accepted: who ends the patrol then end
 LONG = 3.0  # [s] without feedback
 GOES = 0.03  # [m/s] a robot that is slower stands
 THERE = 0.17  # [m] from a waypoint
-MANY = 20  # commands
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 HEADED = {
     "waypoints are taken as seen from where the patrol begins; they are places in the frame odom": lambda p, c, s: p,
@@ -36,23 +35,22 @@ def spoilt(run):
         return "the robot stopped then, and the patrol under way went no further"
     if follows(run, taken["at"]):
         return "the robot left the patrol under way for its waypoint"
-    if unchanged(run, taken["at"] + SOON):
-        return "the patrol under way got no new place from /odom after that, as if no thread were left for it"
     said = run.all("feedback", "patrol")
     if found is None and said and said[-1]["at"] < taken["at"] + SOON and run.end > taken["at"] + LONG:
         return "neither feedback nor a result of the patrol under way came after that"
+    short = run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol"))
+    if found is None and short and run.end > taken["at"] + LONG and on_its_way(run, taken["at"]):
+        return "the patrol under way was not driven to its end after that"
     return ""
 
 
-def unchanged(run, since):
-    """Return whether a server sends the same command again and again, and the same distance, after a time [s]."""
-    _, end = run.period("patrol")
-    sent = []
-    for name in ("linear/x", "angular/z"):
-        signal = run.recording.signal(f"topics/cmd_vel/{name}")
-        sent.append(signal.values[(signal.times / 1e9 > since) & (signal.times / 1e9 < end)])
-    said = {each["distance"] for each in run.all("feedback", "patrol") if since < each["at"] < end}
-    return len(said) == 1 and min(map(len, sent)) > MANY and all(np.ptp(each) == 0 for each in sent)
+def on_its_way(run, at):
+    """Return whether the robot came nearer to its waypoint in the half second before a time [s]."""
+    count, _ = run.nearest("patrol", at)
+    point = np.array(run.waypoints("patrol")[min(count, len(run.waypoints("patrol")) - 1)])
+    way = run.way[(run.times > at - 0.5) & (run.times <= at)]
+    left = np.hypot(*(way - point).T)
+    return len(left) > 1 and left[0] - left[-1] > GOES
 
 
 def leftover(run):

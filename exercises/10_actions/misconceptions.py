@@ -39,9 +39,9 @@ def went_elsewhere(run, goal, until):
         return words
     return (
         blind(run, goal)
+        or BEARINGS.driven_past(run, chosen, points)
         or BEARINGS.wrong_bearing(run, chosen, points)
         or turned_wrong(run, chosen, points)
-        or BEARINGS.driven_past(run, chosen, points)
     )
 
 
