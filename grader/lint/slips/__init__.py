@@ -24,6 +24,7 @@ from gz_course.grader.lint.slips.language import (
     conditions,
     everyday,
     late_binding,
+    locks,
     names,
     never_set,
     no_effect,
@@ -63,7 +64,7 @@ ROOMS = (
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
     endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
-    one_array.LOOKS, endless_waits.LOOKS,
+    one_array.LOOKS, endless_waits.LOOKS, locks.LOOKS,
 )  # fmt: skip
 
 

@@ -29,13 +29,26 @@ def on_odometry(message):
     roll, pitch, yaw = euler_from_quaternion([q.x, q.y, q.z, q.w])
     return yaw
 """
+LOCK = """\
+class Server(Node):
+    def __init__(self):
+        self.lock = threading.RLock()
+
+    def place(self):
+        with self.lock:
+            return self.pose
+
+    def execute(self, handle):
+        with self.lock:
+            print(self.place())
+"""
 
 
 def said(source):
     return " ".join(each["said"] for each in slips(source.encode()))
 
 
-@pytest.mark.parametrize("source", [GLOBAL, SPIN, EULER])
+@pytest.mark.parametrize("source", [GLOBAL, SPIN, EULER, LOCK])
 def test_right_code_has_none(source):
     assert slips(source.encode()) == []
 
@@ -47,6 +60,7 @@ def test_right_code_has_none(source):
         (SPIN, "executor.spin()", "rclpy.spin(node)", "the call is executor.spin()"),
         (EULER, "roll, pitch, yaw", "yaw, pitch, roll", "yaw gets the roll"),
         (EULER, "q.x, q.y, q.z, q.w", "q.w, q.x, q.y, q.z", "takes x, y, z, w in this order"),
+        (LOCK, "RLock", "Lock", "self.place() takes self.lock, which line 10 holds already"),
         ("def execute(handle):\n    handle.succeed\n", "", "", "does not call it"),
     ],
 )
