@@ -137,7 +137,8 @@ def test_wrong_stamps_are_told_from_wrong_points(stamps, words):
 def test_points_that_come_with_the_next_scan_and_its_stamp():
     run = Run()
     run.answer(run.truth, late=0.1, stamps=run.at + 0.1)
-    assert "when they were published" in CHECKS["stamps"](run, {}).explanation
+    said = CHECKS["stamps"](run, {}).explanation
+    assert "when they were published" in said and "those of the scan that has just come" in said
     assert run.places(True).passed and run.places(False).passed
     run.answer(run.truth, late=0.12, stamps=run.at + 0.1)
     assert "those of the next scan" in CHECKS["stamps"](run, {}).explanation
