@@ -10,6 +10,7 @@ from gz_course.grader.score.suspects import suspect
 
 BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearings.py"))))
 LONG = 4.0  # [s] without a new command
+THERE = 0.13  # [m] from a waypoint
 MOVED = 0.1  # [m] a robot that moved less stood
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 TOO_FAST = 1.4  # times the speed of the goal
@@ -39,6 +40,7 @@ def went_elsewhere(run, goal, until):
         return words
     return (
         blind(run, goal)
+        or stays(run, goal)
         or BEARINGS.driven_past(run, chosen, points)
         or BEARINGS.wrong_bearing(run, chosen, points)
         or turned_wrong(run, chosen, points)
@@ -157,6 +159,24 @@ def blind(run, goal):
             "the loop runs, /odom needs a thread of its own, that of a MultiThreadedExecutor"
         )
     return ""
+
+
+def stays(run, goal):
+    """Find out whether a server drives on to a waypoint at which the robot was: it asks for something else."""
+    points = np.array(run.waypoints(goal), dtype=float)
+    said = [each for each in run.all("feedback", goal) if 0 <= each["waypoint"] < len(points)]
+    places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
+    left = [float(np.hypot(*(run.way[i] - points[e["waypoint"]]))) for i, e in zip(places, said, strict=True)]
+    right = [abs(one - each["distance"]) < 0.1 for one, each in zip(left, said, strict=True)]
+    near = [each for one, each in zip(left, said, strict=True) if one < THERE]
+    if not near or np.mean(right) < 0.8 or said[-1]["at"] < near[0]["at"] + LONG / 2:
+        return ""
+    if said[-1]["waypoint"] != near[0]["waypoint"]:
+        return ""
+    return (
+        f"The robot was {min(left):.2f} m from the waypoint {near[0]['waypoint']}, but your server drives on to it: "
+        "within 0.15 m it is reached, and the condition in your loop asks for something else"
+    )
 
 
 def reached_early(run, goal):

@@ -440,3 +440,11 @@ def test_a_robot_that_never_turns_again_has_a_reason_in_the_file():
     patrol = Patrol([[2.4, 0.0]], status="").feedback(np.hypot)
     patrol.facts = lambda: {"suspects": [{"line": 8, "about": "phase", "said": "so it is"}]}
     assert "never turns towards the waypoint: line 8: so it is" in found("visits", patrol).explanation
+
+
+def test_a_server_that_drives_on_to_a_waypoint_that_was_reached():
+    patrol = Patrol([[1.2, 0.0], [2.6, 0.0]], status="").feedback(np.hypot)
+    for event in (each for each in patrol.events if each[1] == "feedback"):
+        way = patrol.way[round(event[0] / STEP)]
+        event[3].update(waypoint=0, distance=float(np.hypot(*(np.array(POINTS[0]) - way))))
+    assert "from the waypoint 0, but your server drives on to it" in found("visits", patrol).explanation
