@@ -83,6 +83,18 @@ def wrong_bearing(run, chosen, points):
     return ""
 
 
+def backwards(run):
+    """Find out whether a server sends negative speeds nearly always."""
+    sent = run.recording.signal("topics/cmd_vel/linear/x").values
+    sent = sent[np.abs(sent) > DRIVES / 4]
+    if len(sent) < FEWEST or np.mean(sent < 0) < 0.8:
+        return ""
+    return (
+        f"Your server drives backwards: linear.x of its commands is negative, {sent.min():.2f} m/s, and a positive one "
+        "drives ahead"
+    )
+
+
 def driven_past(run, chosen, points):
     """Find out whether a robot drives past a waypoint on a straight line, without turning while it drives."""
     way, speed, rate = (each[chosen] for each in (run.way, run.linear.values, run.angular.values))

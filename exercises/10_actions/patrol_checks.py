@@ -22,6 +22,7 @@ STILL = 1.5  # [s] before the end of a run: who sends feedback then is still dri
 STOPPED = 0.5  # [s] after the cancellation
 MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
+SPEEDS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("speeds.py"))))
 REFUSALS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("refusals.py"))))
 GOALS = {goal: words for goal, (words, _) in REFUSALS.GOALS.items()}
 
@@ -193,7 +194,7 @@ def speed(recording, parameters):
         measured = f"{slower[0]:.2f} m/s after a second goal was rejected, where {wanted:.2f} m/s was asked for"
         return Finding(False, expected, measured, slower[1], explanation=LATER.of_a_refused_speed(run))
     driven = any(fastest > 0.02 for fastest in fastest_of.values())
-    why = "" if passed or not driven else MISCONCEPTIONS.other_speed(run, fastest_of)
+    why = "" if passed or not driven else SPEEDS.other_speed(run, fastest_of)
     return Finding(passed, expected, measured, None if passed else at, explanation=why)
 
 

@@ -437,7 +437,7 @@ def test_a_robot_that_drives_straight_past_a_waypoint():
 
 
 def test_a_robot_that_never_turns_again_has_a_reason_in_the_file():
-    patrol = Patrol([[2.4, 0.0]], status="").feedback(np.hypot)
+    patrol = Patrol([[2.4, 0.0]], status="")
     patrol.facts = lambda: {"suspects": [{"line": 8, "about": "phase", "said": "so it is"}]}
     assert "never turns towards the waypoint: line 8: so it is" in found("visits", patrol).explanation
 
@@ -448,3 +448,19 @@ def test_a_server_that_drives_on_to_a_waypoint_that_was_reached():
         way = patrol.way[round(event[0] / STEP)]
         event[3].update(waypoint=0, distance=float(np.hypot(*(np.array(POINTS[0]) - way))))
     assert "from the waypoint 0, but your server drives on to it" in found("visits", patrol).explanation
+
+
+def test_a_robot_that_drives_backwards():
+    patrol = Patrol([[-1.2, 0.0]], status="", speed=0.4)
+    for name in ("topics/cmd_vel/linear/x", "truth/robot/linear_x"):
+        patrol.signals[name] = -patrol.signals[name]
+    assert "drives backwards: linear.x of its commands is negative" in found("visits", patrol).explanation
+    patrol.signals["truth/robot/linear_x"] = patrol.signals["truth/robot/linear_x"] * -1 / 3.6
+    assert "drives backwards" in found("speed", patrol).explanation
+
+
+def test_a_unit_of_the_speed_is_told_by_the_commands_not_by_a_robot_that_is_held_up():
+    patrol = Patrol(speed=0.4 / 3.6)
+    assert "km/h" in found("speed", patrol).explanation
+    patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"] * 3.6
+    assert "km/h" not in found("speed", patrol).explanation

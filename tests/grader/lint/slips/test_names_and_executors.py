@@ -1,4 +1,4 @@
-"""Variables of a function that were meant for the module's, an executor that is passed over, orders of Euler angles."""
+"""Variables meant for the module, executors that are passed over, locks taken twice, orders of Euler angles."""
 
 import pytest
 
@@ -61,6 +61,7 @@ def test_right_code_has_none(source):
         (EULER, "roll, pitch, yaw", "yaw, pitch, roll", "yaw gets the roll"),
         (EULER, "q.x, q.y, q.z, q.w", "q.w, q.x, q.y, q.z", "takes x, y, z, w in this order"),
         (LOCK, "RLock", "Lock", "self.place() takes self.lock, which line 10 holds already"),
+        ("turn = math.atan(dy / dx)\n", "", "", "atan2(dy, dx)"),
         ("def execute(handle):\n    handle.succeed\n", "", "", "does not call it"),
     ],
 )

@@ -98,3 +98,11 @@ def test_a_phase_that_nothing_begins_again_is_named():
 def test_a_phase_that_begins_with_each_waypoint_is_right():
     inside = TURNS.replace("        while far", '        phase = "turn"\n        while far')
     assert said(inside, "phase") == ""
+
+
+@pytest.mark.parametrize(
+    ("condition", "found"), [("abs(turn) > 5", True), ("abs(turn) > 0.1", False), ("left > 5", False)]
+)
+def test_a_limit_of_an_angle_in_degrees_is_named(condition, found):
+    source = f"def step(self):\n    turn = atan2(dy, dx) - self.heading\n    if {condition}:\n        stop()\n"
+    assert ("5 degrees are 0.087" in said(source, "angle")) == found
