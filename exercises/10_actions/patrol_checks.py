@@ -246,7 +246,7 @@ def other_index(indices, total):
         return f"waypoint of your feedback is always {indices[0]}: it is the index of the waypoint the robot drives to"
     if indices == sorted(indices, reverse=True):
         return "waypoint of your feedback counts down, as if it were how many are left: it is an index, from 0"
-    if indices == sorted(indices) and indices[-1] > total:
+    if indices == sorted(indices) and indices[-1] > total and np.mean(np.diff(indices) > 0) > 0.8:
         return "waypoint of your feedback counts iterations of the loop: it is the index of the waypoint in hand"
     return ""
 

@@ -33,6 +33,7 @@ def node(*lines):
             "nothing fills",
         ),
         (node("while not self.buffer.can_transform('odom', 'x', Time()):", "    pass"), "it never ends"),
+        (node("if self.buffer.can_transform('odom', 'x', Time()):", f"    t = {ASK}"), "ask both for the same time"),
         (
             node("while True:", "    try:", f"        t = {ASK}", "        break", "    except E:", "        pass"),
             "never ends",
