@@ -120,12 +120,18 @@ def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
         (asked if last_name(call.func) == "can_transform" else looked).append((call, time))
     latest = [call for call, time in asked if time is not None and _is_latest(time)]
     at_a_time = [call for call, time in looked if time is not None and not _is_latest(time) and id(call) not in tried]
-    if latest and at_a_time and len(latest) == len(asked) and len(at_a_time) == len(looked):
+    if not latest or not at_a_time or len(latest) < len(asked) or len(at_a_time) < len(looked):
+        return
+    if _source(latest[0]) == _source(at_a_time[0]):
         yield (
             latest[0].lineno,
             f"can_transform() asks here for the latest transform, Time(), and line {at_a_time[0].lineno} looks up that "
             "of another time, which may not be there yet, or no more: ask both for the same time",
         )
+
+
+def _source(call: ast.Call) -> str:
+    return last_name(call.args[1]) or ast.unparse(call.args[1]) if len(call.args) > 1 else ""
 
 
 def _is_latest(node: ast.expr) -> bool:
