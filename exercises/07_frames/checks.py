@@ -235,12 +235,15 @@ def explanation(recording, found, truth, which, bad, guess=True):
             if words not in fitting and not any(near(predicted, other, CLOSE / 3)[wrong].all() for other in same):
                 fitting.append(words)
                 same.append(predicted)
+    off = [np.nanmedian(np.linalg.norm(found.points - each, axis=-1)[wrong]) for each in same]
+    fitting = [fitting[i] for i in np.argsort(np.round(off, 2), kind="stable")]
     if not fitting and not guess:
         return ""
     if not fitting:
         seen = both_frames(recording, found).inverse().of(found.points)
+        first, step = map(float, found.angles[0])
         apart = MISCONCEPTIONS["apart"](
-            found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong], float(found.angles[0, 1])
+            found.points[wrong], truth[wrong], seen[wrong], found.hits[wrong], step, found.rays[wrong], first
         )
         hit = OTHER_HITS["some_hit"](found, wrong, seen)
         fitting = [hit if not apart.startswith("all") and hit else apart]
@@ -335,14 +338,18 @@ def predictions(recording, found, truth):
         yield words, points if in_odom else both.of(points)
     for words, points in OTHER_HITS["of_other_measures"](found, both, mount):
         yield words, both.of(points)
+    yield "moved by the opposite of the translation: it is added, not subtracted", both.turned(hits) - both.place
+    yield "moved by the robot's place twice: the transform to odom holds it already", truth + robot.place
+    yield "transformed twice by the mount of the scanner", robot.of(mount.of(on_robot))
     yield "transformed twice", both.of(both.of(hits))
     yield "transformed twice by the pose of the robot", robot.of(robot.of(on_robot))
     for words, (x, y, z, w) in MISCONCEPTIONS["of_other_quaternions"](both.turn):
         yield words, Frame(matrices(x, y, z, w), both.place).of(hits)
     for words, points in MISCONCEPTIONS["of_other_headings"](both.turn, hits, found.points - both.place):
         yield words, points + both.place
-    for words, points in MISCONCEPTIONS["of_other_matrices"](both.turn, hits):
-        yield words, points + both.place
+    for kind in ("of_other_matrices", "of_other_formulas"):
+        for words, points in MISCONCEPTIONS[kind](both.turn, hits):
+            yield words, points + both.place
     for words, points in MISCONCEPTIONS["of_other_rays"](found):
         yield words, both.of(points)
     yield "always the same", still.place + found.points[~np.isnan(found.points[:, 0])][:1]

@@ -14,9 +14,15 @@ def stamps(given, other, sent, heard):
         return "the stamps of your points are 0: nothing has set them"
     if np.mean(np.abs(wrong - np.floor(wrong)) < SAME) >= SHARE:
         return "the stamps of your points are whole seconds: a stamp is sec and nanosec"
+    of_scans = np.mean(np.min(np.abs(wrong[:, None] - sent[None, :]), axis=1) <= SAME) >= SHARE
+    if np.mean(np.abs(wrong - times) <= SAME) >= SHARE and of_scans:
+        return (
+            "the stamps of your points are those of the scan that has just come, in place of the one that waited, or "
+            "they say when they were published, not when the scan was taken"
+        )
     if np.mean(np.abs(wrong - times) <= SAME) >= SHARE:
         return "the stamps of your points say when they were published, not when the scan was taken"
-    if np.mean(np.min(np.abs(wrong[:, None] - sent[None, :]), axis=1) <= SAME) >= SHARE:
+    if of_scans:
         return "the stamps of your points are those of the next scan"
     if np.mean(np.abs(wrong - latest) <= SAME) >= SHARE:
         return "the stamps of your points are those of the latest transform, not of the scan"

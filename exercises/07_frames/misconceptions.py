@@ -8,6 +8,7 @@ import numpy as np
 CLOSE = 0.03  # [m]
 SAME_WAY = 0.03  # [rad]
 SHARE = 0.9  # of the points
+SOME_RAYS = 6
 SIGNS = (1, -1, -1), (-1, 1, -1), (-1, -1, 1), (1, 1, 1)  # of the diagonal, for x, y, z, w
 
 GEOMETRY = runpy.run_path(str(Path(__file__).with_name("geometry.py")))
@@ -45,13 +46,35 @@ def of_other_headings(turn, hits, given):
         yield words, np.where(nearer[:, None], one, other)
 
 
-def of_other_quaternions(turn):
-    """Yield quaternions (x, y, z, w), each (n,), that are not those of the rotations (n, 3, 3)."""
+def _quaternions(turn):
+    """Return the quaternions x, y, z, w, each (n,), of rotations (n, 3, 3)."""
     squares = [1 + turn[:, 0, 0] * a + turn[:, 1, 1] * b + turn[:, 2, 2] * c for a, b, c in SIGNS]
     x, y, z, w = (np.sqrt(np.maximum(square, 0)) / 2 for square in squares)
     x = np.copysign(x, turn[:, 2, 1] - turn[:, 1, 2])
     y = np.copysign(y, turn[:, 0, 2] - turn[:, 2, 0])
     z = np.copysign(z, turn[:, 1, 0] - turn[:, 0, 1])
+    return x, y, z, w
+
+
+def of_other_formulas(turn, hits):
+    """Yield hits (n, 3) [m] turned by a formula with one slip: v + 2 w (u x v) + 2 u x (u x v) is the right one.
+
+    Source: https://en.wikipedia.org/wiki/Quaternions_and_spatial_rotation (Rodrigues' rotation of a vector).
+    """
+    *axis, w = _quaternions(turn)
+    u = np.stack(axis, -1)
+    once = np.cross(u, hits)
+    twice, w = np.cross(u, once), w[:, None]
+    right = "a quaternion turns v to v + 2 w (u x v) + 2 u x (u x v), where u is (x, y, z)"
+    for points in (hits + w * once + twice, hits + 2 * w * once + twice, hits + w * once + 2 * twice):
+        yield f"turned by a formula with a wrong factor or sign: {right}", points
+    yield f"turned by a formula that lacks u x (u x v): {right}", hits + 2 * w * once
+    yield f"turned by a formula that lacks w (u x v): {right}", hits + 2 * twice
+
+
+def of_other_quaternions(turn):
+    """Yield quaternions (x, y, z, w), each (n,), that are not those of the rotations (n, 3, 3)."""
+    x, y, z, w = _quaternions(turn)
     words = "those of a quaternion in another order: ROS has x, y, z, w"
     yield words, (w, x, y, z)
     yield words, (y, z, w, x)
@@ -87,6 +110,17 @@ def of_other_rays(found):
     yield "those with sin and cos exchanged: x is range * cos(angle)", polar(distance, np.pi / 2 - angle)
     yield "those of rays all around: use angle_min and angle_increment", polar(distance, around)
     yield "those of rays all around, from -pi on: use angle_min and angle_increment", polar(distance, around - np.pi)
+    both = "those with x and y alike: x is range * cos(angle), and y is range * sin(angle)"
+    for part in (np.cos(angle), np.sin(angle)):
+        yield both, np.stack([distance * part, distance * part, 0 * distance], -1)
+    count = np.array([len(row) for row in found.rows])
+    steps = found.rays * step * (count - 1) / count
+    yield (
+        "those of a step of (angle_max - angle_min) / n: n rays have n - 1 steps between them",
+        polar(distance, first + steps),
+    )
+    words = "those of angles that were divided by 57.3 once more: angle_min and angle_increment are in radians already"
+    yield words, polar(distance, np.radians(angle))
     best = np.array([int(np.argmin(distance[: i + 1])) for i in range(len(distance))])
     words = "the nearest hits of all scans so far: begin a new search in each scan"
     for direction in (angle[best], angle, first):
@@ -140,13 +174,32 @@ def of_other_rays(found):
     yield "the middle of all hits, not the nearest", np.array([np.nanmean(points, 0) for points in every])
 
 
-def apart(points, truth, seen, hits, step):
+def _line_of_angles(angles, rays, first, step):
+    """Return that the angles [rad] of points are a + b * i for the ray i, with which a and b; empty if they are not."""
+    if len(np.unique(rays)) < SOME_RAYS or np.ptp(rays) * step < 0.5:
+        return ""
+    slopes = np.linspace(-3 * step, 3 * step, 2401)
+    off = np.exp(1j * (angles[:, None] - slopes * rays[:, None]))
+    fits = np.abs(off.mean(axis=0))
+    best = int(np.argmax(fits))
+    start = float(np.angle(off[:, best].mean()))
+    apart = np.abs(np.angle(off[:, best] * np.exp(-1j * start)))
+    if np.mean(apart <= SAME_WAY) < SHARE:
+        return ""
+    return (
+        f"at the angle {start:.2f} {'-' if slopes[best] < 0 else '+'} {abs(slopes[best]):.4f} * i for the ray i, as "
+        f"computed from the points; it should be angle_min + i * angle_increment, {first:.2f} + {step:.4f} * i here"
+    )
+
+
+def apart(points, truth, seen, hits, step, rays=(), first=0.0):
     """Return in what wrong points are right, as the end of "your points are ..."; empty if in nothing.
 
     `points` and `truth` are in odom, `seen` and `hits` the same in the scanner's frame, all (n, 3) [m]; `step` is the
-    angle between two rays [rad].
+    angle between two rays, `first` that of the first one [rad], and `rays` the numbers of the rays of the hits.
     """
     there = ~np.isnan(points[:, 0])
+    rays = np.asarray(rays)[there] if len(rays) else np.zeros(0)
     points, truth, seen, hits = points[there], truth[there], seen[there], hits[there]
     shift, factors = np.median(points - truth, 0), np.linalg.norm(seen, axis=1) / np.linalg.norm(hits, axis=1)
     angles = np.arctan2(seen[:, 1], seen[:, 0]) - np.arctan2(hits[:, 1], hits[:, 0])
@@ -176,6 +229,9 @@ def apart(points, truth, seen, hits, step):
                 f"as far from the scanner as the hits, in directions that are {degrees:.0f} degrees off"
                 f"{why if whole else ''}"
             )
+        flat = np.mean(np.abs(seen[:, 2]) <= CLOSE) >= SHARE
+        if flat and len(rays) and (line := _line_of_angles(np.arctan2(seen[:, 1], seen[:, 0]), rays, first, step)):
+            return f"as far from the scanner as the hits, {line}"
         return "as far from the scanner as the hits, in other directions: the angle, or a rotation, is wrong"
     if np.mean(np.abs(angles) <= SAME_WAY) >= SHARE and "z" in axes:
         usual = float(np.median(factors))

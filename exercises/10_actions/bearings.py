@@ -7,6 +7,8 @@ FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead
 FEWEST = 20  # samples of a robot that drives
 TURNS = 0.02  # [rad/s] a robot that turns less steers by no angle
 REACHED = 0.17  # [m]
+BESIDE = 0.8  # [m] from a waypoint
+STRAIGHT = 0.05  # [rad/s]
 ENOUGH = 2.0  # [m] of the way, before the robot comes to a wall
 HALF_A_SECOND = 10  # samples
 ASIDE = 0.8  # [rad]
@@ -79,6 +81,35 @@ def wrong_bearing(run, chosen, points):
             "heading, so it circles: let it drive only while the angle to turn by is small"
         )
     return ""
+
+
+def backwards(run):
+    """Find out whether a server sends negative speeds nearly always."""
+    sent = run.recording.signal("topics/cmd_vel/linear/x").values
+    sent = sent[np.abs(sent) > DRIVES / 4]
+    if len(sent) < FEWEST or np.mean(sent < 0) < 0.8:
+        return ""
+    return (
+        f"Your server drives backwards: linear.x of its commands is negative, {sent.min():.2f} m/s, and a positive one "
+        "drives ahead"
+    )
+
+
+def driven_past(run, chosen, points):
+    """Find out whether a robot drives past a waypoint on a straight line, without turning while it drives."""
+    way, speed, rate = (each[chosen] for each in (run.way, run.linear.values, run.angular.values))
+    missed, after = _missed(way, points)
+    left = np.hypot(*(way[after:] - missed).T)
+    nearest = int(np.argmin(left))
+    driving = speed[after : after + nearest + 1] > DRIVES
+    if driving.sum() < FEWEST or np.quantile(np.abs(rate[after : after + nearest + 1][driving]), 0.8) > STRAIGHT:
+        return ""
+    if left[nearest] > BESIDE or left[nearest:].max() < left[nearest] + 0.3:
+        return ""
+    return (
+        f"The robot drives straight past the waypoint, {left[nearest]:.2f} m beside it: angular.z is 0 while it "
+        "drives, so the error that is left when it sets off is never corrected"
+    )
 
 
 def _turned_past(error, speed):

@@ -1,6 +1,7 @@
 """Why a goal beside or after the first one fails: it spoils the one under way, is refused, or goes elsewhere."""
 
 import json
+from itertools import pairwise
 
 import numpy as np
 
@@ -37,7 +38,51 @@ def spoilt(run):
     said = run.all("feedback", "patrol")
     if found is None and said and said[-1]["at"] < taken["at"] + SOON and run.end > taken["at"] + LONG:
         return "neither feedback nor a result of the patrol under way came after that"
+    short = run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol"))
+    if found is None and short and run.end > taken["at"] + LONG and on_its_way(run, taken["at"]):
+        return "the patrol under way was not driven to its end after that"
     return ""
+
+
+def on_its_way(run, at):
+    """Return whether the robot came nearer to its waypoint in the half second before a time [s]."""
+    count, _ = run.nearest("patrol", at)
+    point = np.array(run.waypoints("patrol")[min(count, len(run.waypoints("patrol")) - 1)])
+    way = run.way[(run.times > at - 0.5) & (run.times <= at)]
+    left = np.hypot(*(way - point).T)
+    return len(left) > 1 and left[0] - left[-1] > GOES
+
+
+def leftover(run):
+    """Return that the patrol after the cancelled one drives to a waypoint of that one first; empty if it does not."""
+    found, cancelled = run.one("result", "again"), run.one("result", "cancelled")
+    if found is None or cancelled is None:
+        return ""
+    start, end = run.period("again")
+    way = run.way[(run.times >= start) & (run.times <= end)]
+    before = run.way[run.times <= cancelled["at"]]
+    for point in map(np.array, run.waypoints("cancelled")):
+        if not len(way) or np.hypot(*(before - point).T).min() <= THERE:
+            continue
+        ends = np.array([way[0], *run.waypoints("again")], dtype=float)
+        if np.hypot(*(way - point).T).min() < THERE and _beside(point, ends) > 2 * THERE:
+            said = suspect(run.recording, "anew", "kept_list")
+            where = ", ".join(f"{value:g}" for value in point)
+            return (
+                f"The patrol after the cancelled one drives to ({where}), which is a waypoint of the cancelled one: "
+                f"{said or 'what was kept of that one has to be emptied where the next begins'}"
+            )
+    return ""
+
+
+def _beside(point, corners):
+    """Return how far a point is from the straight lines between corners (n, 2) [m]."""
+    off = []
+    for one, other in pairwise(corners):
+        along = other - one
+        share = np.clip((point - one) @ along / max(along @ along, 1e-9), 0.0, 1.0)
+        off.append(float(np.hypot(*(point - one - share * along))))
+    return min(off)
 
 
 def follows(run, since):

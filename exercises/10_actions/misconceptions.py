@@ -10,11 +10,11 @@ from gz_course.grader.score.suspects import suspect
 
 BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearings.py"))))
 LONG = 4.0  # [s] without a new command
+THERE = 0.13  # [m] from a waypoint
 MOVED = 0.1  # [m] a robot that moved less stood
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 TOO_FAST = 1.4  # times the speed of the goal
 STAYS = 0.4  # [m] from the last place
-SAME = 0.1  # of a speed, to be called the same
 
 
 def went_elsewhere(run, goal, until):
@@ -27,7 +27,9 @@ def went_elsewhere(run, goal, until):
         return ""
     if np.hypot(*(way - way[0]).T).max() < MOVED:
         return stood(run, chosen)
-    if said := suspect(run.recording, "summed_place", "heading", "angle"):
+    if words := BEARINGS.backwards(run):
+        return words
+    if said := suspect(run.recording, "no_place", "summed_place", "heading", "angle"):
         return said
     if words := other_places(way, points):
         return f"The robot went elsewhere: {words}"
@@ -37,7 +39,13 @@ def went_elsewhere(run, goal, until):
         return f"A waypoint counts as reached where the robot is not: {said}"
     if words := last_only(run, way, points):
         return words
-    return blind(run, goal) or BEARINGS.wrong_bearing(run, chosen, points) or turned_wrong(run, chosen, points)
+    return (
+        blind(run, goal)
+        or stays(run, goal)
+        or BEARINGS.driven_past(run, chosen, points)
+        or BEARINGS.wrong_bearing(run, chosen, points)
+        or turned_wrong(run, chosen, points)
+    )
 
 
 def last_only(run, way, points):
@@ -101,7 +109,7 @@ def stood(run, chosen):
     turned = np.abs(run.angular.values[chosen]).max(initial=0.0)
     commands = run.recording.signal("topics/cmd_vel/linear/x")
     if not len(commands):
-        return "No command came on /cmd_vel while the patrol was under way: execute never publishes one"
+        return "No command came on /cmd_vel while the patrol was under way: execute did not come to a publish()"
     if turned > 0.2:
         return suspect(run.recording, "heading", "angle") or (
             "The robot turned on the spot and never drove: your server never finds that it faces the waypoint, so its "
@@ -132,7 +140,11 @@ def turned_wrong(run, chosen, points):
             "is atan2(dy, dx) - heading"
         )
     if clear.sum() < 10 and np.mean(np.abs(error) > 0.3) > 0.5 and np.abs(rate).max(initial=0.0) < 0.05:
-        return "The robot never turns towards the waypoint: angular.z stays 0 although the waypoint is beside it"
+        said = suspect(run.recording, "phase")
+        return (
+            "The robot never turns towards the waypoint: "
+            f"{said or 'angular.z stays 0 although the waypoint is beside it'}"
+        )
     return ""
 
 
@@ -144,10 +156,28 @@ def blind(run, goal):
             return f"The server takes the robot to be where it was at first: {kept}"
         return (
             "The patrol never ended: the loop in execute does not see where the robot is, because its distance never "
-            "changes. While it runs, /odom needs a thread of its own, that of a MultiThreadedExecutor, and a callback "
-            "group that lets both run; and the loop must read the place again"
+            "changes: it must read the place again in every iteration, the callback of /odom must keep it, and while "
+            "the loop runs, /odom needs a thread of its own, that of a MultiThreadedExecutor"
         )
     return ""
+
+
+def stays(run, goal):
+    """Find out whether a server drives on to a waypoint at which the robot was: it asks for something else."""
+    points = np.array(run.waypoints(goal), dtype=float)
+    said = [each for each in run.all("feedback", goal) if 0 <= each["waypoint"] < len(points)]
+    places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
+    left = [float(np.hypot(*(run.way[i] - points[e["waypoint"]]))) for i, e in zip(places, said, strict=True)]
+    right = [abs(one - each["distance"]) < 0.1 for one, each in zip(left, said, strict=True)]
+    near = [each for one, each in zip(left, said, strict=True) if one < THERE]
+    if not near or np.mean(right) < 0.8 or said[-1]["at"] < near[0]["at"] + LONG / 2:
+        return ""
+    if said[-1]["waypoint"] != near[0]["waypoint"]:
+        return ""
+    return (
+        f"The robot was {min(left):.2f} m from the waypoint {near[0]['waypoint']}, but your server drives on to it: "
+        "within 0.15 m it is reached, and the condition in your loop asks for something else"
+    )
 
 
 def reached_early(run, goal):
@@ -190,11 +220,15 @@ def reached_early(run, goal):
 
 
 def by_reckoning(run, goal):
-    """Find out whether the distances of the feedback go to 0 without the robot: its time, or its steps, are counted."""
+    """Find out whether the distances of the feedback go to 0 without the robot, and what they are instead."""
     said, points = run.all("feedback", goal), np.array(run.waypoints(goal), dtype=float)
     said = [each for each in said if 0 <= each["waypoint"] < len(points)]
     if len(said) < 5:
         return ""
+    for words, values in other_feedback(run, said, points.tolist()):
+        given = np.array([each["distance"] for each in said])
+        if np.mean(np.abs(values - given) <= 0.05 * max(1.0, np.abs(given).max() / 4)) >= 0.9 and np.ptp(given) > 0.3:
+            return f"A waypoint counts as reached where the robot is not: the distance of your server is {words}"
     way = run.way[np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)]
     index, given = np.array([each["waypoint"] for each in said]), np.array([each["distance"] for each in said])
     left = np.hypot(*(way - points[index]).T)
@@ -202,8 +236,8 @@ def by_reckoning(run, goal):
     if all(given[i] < 0.2 for i in lasts) and max(left[i] - given[i] for i in lasts) > 0.1:
         return (
             f"Your server takes a waypoint for reached that is still {max(left[i] for i in lasts):.2f} m away, where "
-            f"its own distance says {min(given[i] for i in lasts):.2f} m: it counts time or steps, and does not look "
-            "where /odom says that the robot is; that decides when a waypoint is reached"
+            f"its own distance says {min(given[i] for i in lasts):.2f} m: either its distance is computed wrongly, or "
+            "it counts time or steps, and does not look where /odom says that the robot is"
         )
     return ""
 
@@ -268,62 +302,17 @@ def obeys(run, since, until):
     return "it obeys the last command until it gets a Twist of zeros"
 
 
-def other_speed(run, fastest):
-    """Return what the speeds are instead of those of the goals: `fastest` [m/s] by goal."""
-    asked = {goal: run.one("sent", goal)["speed"] for goal in fastest}
-    ratios = {goal: fastest[goal] / asked[goal] for goal in fastest}
-    for factor, words in (
-        (0.01, "a speed in metres per second is taken for centimetres per second"),
-        (1 / 3.6, "the speed is divided by 3.6, as if it were in km/h; it is in metres per second"),
-        (3.6, "the speed is multiplied by 3.6, as if km/h were asked for; it is in metres per second"),
-        (0.5, "linear.x is half of it"),
-        (2.0, "linear.x is twice as much"),
-    ):
-        if all(abs(ratio - factor) <= SAME * factor for ratio in ratios.values()):
-            return f"Your server drives at {factor:.2g} times the speed of the goal: {words}"
-    if words := proportional(run, asked):
-        return words
-    values = list(fastest.values())
-    if len(values) == 2 and abs(values[0] - values[1]) <= 0.05 * max(values) and max(values) > 0.05:
-        return (
-            f"Your server drives at {values[0]:.2f} m/s whatever the goal says: linear.x is goal_handle.request.speed"
-        )
-    goal = max(ratios, key=lambda each: abs(ratios[each] - 1))
-    if ratios[goal] < 0.85:
-        return (
-            f"Your server drives slower than the goal says, {fastest[goal]:.2f} m/s at most where {asked[goal]:.2f} "
-            "m/s are asked for: it may be slower only to turn and to arrive"
-        )
-    return f"Your server drives at {fastest[goal]:.2f} m/s where the goal says {asked[goal]:.2f}: linear.x has no limit"
-
-
-def proportional(run, asked):
-    """Find out whether linear.x goes with the distance that is left over the whole way."""
-    signal = run.recording.signal("topics/cmd_vel/linear/x")
-    for goal in asked:
-        said = run.all("feedback", goal)
-        if len(said) < 10:
-            continue
-        at = np.array([each["at"] for each in said])
-        left = np.array([each["distance"] for each in said])
-        index = np.searchsorted(signal.times / 1e9, at, side="right") - 1
-        speed = signal.values[np.maximum(index, 0)]
-        driving = (speed > 0.02) & (left > 0.2)
-        if driving.sum() >= 8 and np.ptp(left[driving]) > 0.4:
-            gain = speed[driving] / left[driving]
-            if np.mean(np.abs(gain - np.median(gain)) <= 0.1 * np.median(gain)) > 0.8:
-                return (
-                    f"linear.x is {np.median(gain):.2f} times the distance that is left, all the way: the speed of the "
-                    "goal is no gain but how fast to drive, min(speed, 1.5 * distance)"
-                )
-    return ""
-
-
 def other_visited(run, found, total):
     """Return what `visited` of a patrol that was driven to its end counts."""
     if found["visited"] == total - 1:
-        return f"visited is {found['visited']}, the index of the last waypoint; the robot has been at {total} waypoints"
-    if found["visited"] > 3 * total:
+        return (
+            f"visited is {found['visited']}, one less than the {total} waypoints that the robot has been at, such as "
+            "the index of the last waypoint, which counts from 0"
+        )
+    start, end = run.period("patrol")
+    times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    rounds = max(len(run.all("feedback", "patrol")), int(np.sum((times >= start) & (times <= end))))
+    if 3 * total < found["visited"] and 0.8 * rounds < found["visited"] < 1.2 * rounds:
         return f"visited is {found['visited']}, but {total} waypoints were visited: it counts the iterations of a loop"
     return f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
 
@@ -345,7 +334,7 @@ def other_feedback(run, said, points):
     yield "how far the robot has driven", np.cumsum(steps)[places] - np.cumsum(steps)[places[0]]
     yield "how far it is to the last waypoint", to(np.full(len(index), len(targets)))
     yield "how far it is to the next waypoint but one", to(index + 1)
-    yield "how far it is to the waypoint before", to(index - 1)
+    yield "how far it is to the waypoint before, or always to the first one", to(index - 1)
     yield "the whole way that is left, over all waypoints", to(index) + [following[i:].sum() for i in index.clip(0)]
     yield "the square of how far it is: the square root is missing", to(index) ** 2
     yield "the sum of the distances along x and y; it should be hypot(dx, dy)", np.abs(here).sum(axis=1)

@@ -22,12 +22,9 @@ STILL = 1.5  # [s] before the end of a run: who sends feedback then is still dri
 STOPPED = 0.5  # [s] after the cancellation
 MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
-GOALS = {
-    "empty": "a goal without waypoints",
-    "too_fast": "a speed above max_speed",
-    "backwards": "a negative speed",
-    "standing": "a speed of 0",
-}
+SPEEDS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("speeds.py"))))
+REFUSALS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("refusals.py"))))
+GOALS = {goal: words for goal, (words, _) in REFUSALS.GOALS.items()}
 
 
 class Run:
@@ -137,7 +134,8 @@ def rejects(recording, parameters):
         return gate
     for goal, words in GOALS.items():
         if event := run.one("accepted", goal):
-            return Finding(False, expected, f"your server accepted {words}", event["at"])
+            why = REFUSALS.accepted(run)
+            return Finding(False, expected, f"your server accepted {words}", event["at"], explanation=why)
         if not run.one("rejected", goal):
             return Finding(False, expected, f"your server never answered to {words}")
     return Finding(True, expected, "each of the four was rejected")
@@ -196,7 +194,7 @@ def speed(recording, parameters):
         measured = f"{slower[0]:.2f} m/s after a second goal was rejected, where {wanted:.2f} m/s was asked for"
         return Finding(False, expected, measured, slower[1], explanation=LATER.of_a_refused_speed(run))
     driven = any(fastest > 0.02 for fastest in fastest_of.values())
-    why = "" if passed or not driven else MISCONCEPTIONS.other_speed(run, fastest_of)
+    why = "" if passed or not driven else SPEEDS.other_speed(run, fastest_of)
     return Finding(passed, expected, measured, None if passed else at, explanation=why)
 
 
@@ -248,7 +246,7 @@ def other_index(indices, total):
         return f"waypoint of your feedback is always {indices[0]}: it is the index of the waypoint the robot drives to"
     if indices == sorted(indices, reverse=True):
         return "waypoint of your feedback counts down, as if it were how many are left: it is an index, from 0"
-    if indices == sorted(indices) and indices[-1] > total:
+    if indices == sorted(indices) and indices[-1] > total and np.mean(np.diff(indices) > 0) > 0.8:
         return "waypoint of your feedback counts iterations of the loop: it is the index of the waypoint in hand"
     return ""
 
@@ -346,6 +344,8 @@ def busy(recording, parameters):
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"
     why = "" if passed else LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "again")
+    why = LATER.leftover(run) or why
+    passed = passed and not why
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
 

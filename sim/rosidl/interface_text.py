@@ -146,6 +146,9 @@ def _item(type_text: str, rest: str, package: str) -> idl.Member | idl.Constant:
         return _constant(type_text, name.strip(), value.strip())
     name, _, default = rest.partition(" ")
     kind = _adapted_type(type_text, package)
+    if name.endswith("]") and adapter.is_valid_field_name(name.partition("[")[0]):
+        field, _, size = name.partition("[")
+        raise _Expected(f"the brackets of an array belong to its type: {type_text}[{size} {field}")
     if not adapter.is_valid_field_name(name):
         raise _Expected(
             f"'{name}' cannot be the name of a field; expected small letters, digits and single underscores, "
@@ -175,6 +178,11 @@ def _constant(type_text: str, name: str, value: str) -> idl.Constant:
 def _adapted_type(text: str, package: str) -> adapter.Type:
     """Return the type written in a text. Raises _Expected with the nearest name."""
     base = re.split(r"\[|<=", text)[0]
+    if text.endswith(":"):
+        raise _Expected(f"'{text}' is not a type: the type comes first, then the name, without a colon")
+    if re.fullmatch(r"\w+/(msg|srv|action)/\w+", base):
+        package, _, name = base.split("/")
+        raise _Expected(f"'{text}' is not a type: write {package}/{name}, without the folder between them")
     if base[:1].islower() and "/" not in base and base not in _PRIMITIVES:
         raise _Expected(f"unknown type '{base}'" + (did_you_mean(base, _PRIMITIVES) or _shapes()))
     try:

@@ -137,7 +137,8 @@ def test_wrong_stamps_are_told_from_wrong_points(stamps, words):
 def test_points_that_come_with_the_next_scan_and_its_stamp():
     run = Run()
     run.answer(run.truth, late=0.1, stamps=run.at + 0.1)
-    assert "when they were published" in CHECKS["stamps"](run, {}).explanation
+    said = CHECKS["stamps"](run, {}).explanation
+    assert "when they were published" in said and "those of the scan that has just come" in said
     assert run.places(True).passed and run.places(False).passed
     run.answer(run.truth, late=0.12, stamps=run.at + 0.1)
     assert "those of the next scan" in CHECKS["stamps"](run, {}).explanation
@@ -254,3 +255,41 @@ def test_points_that_come_only_if_the_hit_has_moved():
     there = np.arange(60) % 5 == 0
     assert "had moved by about 0.10 m" in CHECKS["UNANSWERED"]["_unmoved"](there, truth)
     assert CHECKS["UNANSWERED"]["_unmoved"](np.random.default_rng(1).random(60) < 0.5, truth) == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "points"),
+    [
+        ("with x and y alike", lambda run, scans, both, far, angle: both.of(flat(far, angle, np.cos, np.cos))),
+        ("opposite of the translation", lambda run, scans, both, far, angle: both.turned(scans.hits) - both.place),
+        (
+            "a wrong factor or sign",
+            lambda run, scans, both, far, angle: half_turned(both.turn, scans.hits) + both.place,
+        ),
+        (
+            "-1.00 + 0.0300 * i for the ray i",
+            lambda run, scans, both, far, angle: both.of(flat(far, angle / 2, np.cos, np.sin)),
+        ),
+        ("divided by 57.3", lambda run, scans, both, far, angle: both.of(flat(far, angle / 57.3, np.cos, np.sin))),
+    ],
+)
+def test_slips_of_formulas(words, points):
+    run = Run()
+    run.mount = (0.2, -0.1, 0.3), (0.0, 0.0, np.sin(1.0), np.cos(1.0))
+    scans = CHECKS["scans"](run)
+    both, far = CHECKS["both_frames"](run, scans), np.linalg.norm(scans.hits, axis=1)
+    angle = FIRST + STEP * scans.rays
+    run.answer(points(run, scans, both, far, angle))
+    assert words in run.places().explanation, run.places()
+
+
+def flat(far, angle, of_x, of_y):
+    return np.stack([far * of_x(angle), far * of_y(angle), 0 * far], -1)
+
+
+def half_turned(turn, hits):
+    """Turn points (n, 3) by v + w (u x v) + u x (u x v), without the factors 2; all turns are about z."""
+    half = np.arctan2(turn[:, 1, 0], turn[:, 0, 0]) / 2
+    u = np.stack([0 * half, 0 * half, np.sin(half)], -1)
+    once = np.cross(u, hits)
+    return hits + np.cos(half)[:, None] * once + np.cross(u, once)

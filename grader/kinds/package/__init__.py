@@ -35,7 +35,8 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the student's node beside the exercise's bridge and the exercise's own node."""
     found = node_plan(exercise, submission)
     given = {f"{APART}/{name}": content for name, content in exercise_node(exercise).items()}
-    return RunPlan(found.program, found.files | given, found.entries, found.facts)
+    facts = found.facts | {"given_topics": sorted(exercise.observe)}
+    return RunPlan(found.program, found.files | given, found.entries, facts)
 
 
 def command(program: Path, trial: Trial) -> list[str]:
@@ -80,6 +81,7 @@ def diagnosis() -> Diagnosis:
             execute_raised,
             looks.never_spun,
             looks.out_of_time,
+            misdirected,
             looks.unstable,
         ),
         (looks.slips, survived, looks.whole_number_fault, lost_number),
@@ -98,6 +100,19 @@ def forged(recording: Recording, facts: dict[str, Any]) -> str:
     for topic in facts.get("forged", []):
         return f"Your node publishes on {topic}, which belongs to the exercise's own node: nobody else may publish."
     return ""
+
+
+def misdirected(recording: Recording, facts: dict[str, Any]) -> str:
+    """Name the topic to which the student's node publishes in vain, or from which it hears nothing."""
+    from gz_course.grader.score.diagnosis import publishers, subscriptions
+
+    given = facts.get("given_topics", [])  # of the exercise's own node
+    listened = {topic: kind for topic, kind in facts.get("listened", {}).items() if topic not in given}
+    offered = facts.get("offered", {}).items() - {("/clock", "rosgraph_msgs/msg/Clock")}
+    ends = facts.get("endpoints", [])
+    hears = any((e["topic"], e["type"]) in offered for e in ends if e["kind"] == "subscription")
+    said = publishers(recording, facts | {"listened": listened}) if given else ""
+    return said or ("" if hears or not given or not offered else subscriptions(recording, facts))
 
 
 def build_fault(recording: Recording, facts: dict[str, Any]) -> str:

@@ -9,7 +9,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.actions import goal_flags, goals, patrols, waypoint_loops
+from gz_course.grader.lint.suspects.actions import (
+    answers,
+    goal_flags,
+    goals,
+    judgements,
+    patrols,
+    phases,
+    waypoint_loops,
+)
 from gz_course.grader.lint.suspects.memory import ages, aliases, flags, hidden_errors, lookups, old_values, oldest
 from gz_course.grader.lint.suspects.planning import forgetting, straight_goals, way_ends, ways
 from gz_course.grader.lint.suspects.sensing import (
@@ -59,6 +67,9 @@ LOOKS = (
     *farthest.LOOKS,
     *goals.LOOKS,
     *goal_flags.LOOKS,
+    *judgements.LOOKS,
+    *answers.LOOKS,
+    *phases.LOOKS,
     *old_values.LOOKS,
     *drives.LOOKS,
     *hidden_errors.LOOKS,

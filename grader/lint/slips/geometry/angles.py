@@ -47,6 +47,20 @@ def exchanged_atan2(tree: ast.AST) -> Iterator[Place]:
             yield call.lineno, f"{ast.unparse(call)[:60]}: {name} takes y first and x second"
 
 
+def quotients_for_directions(tree: ast.AST) -> Iterator[Place]:
+    """Find atan(dy / dx), which knows no direction to the back."""
+    for call, name in _calls(tree):
+        given = call.args[0] if len(call.args) == 1 else None
+        if name not in ("atan", "arctan") or not isinstance(given, ast.BinOp) or not isinstance(given.op, ast.Div):
+            continue
+        if (_axis(given.left), _axis(given.right)) == ("y", "x"):
+            yield (
+                call.lineno,
+                f"{ast.unparse(call)[:60]} is between -90 and 90 degrees, so what lies behind seems to be ahead, and "
+                f"it divides by 0 to the side: atan2({ast.unparse(given.left)}, {ast.unparse(given.right)})",
+            )
+
+
 def _axis(node: ast.expr) -> str:
     """Return x or y if that is what an expression is called, alone or as a difference; else an empty text."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
@@ -74,4 +88,4 @@ def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (degrees_for_radians, exchanged_atan2, quaternions_for_angles)
+LOOKS = (degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)

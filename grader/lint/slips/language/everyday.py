@@ -10,7 +10,10 @@ from gz_course.grader.lint.slips.nodes.callbacks import handed_over
 from gz_course.grader.lint.syntax import Place, calls, functions, last_name
 
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
-ACTIONS = frozenset({"cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset"})
+ACTIONS = frozenset({
+    "cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset", "succeed", "canceled", "abort",
+    "publish_feedback", "clear", "append", "popleft",
+})  # fmt: skip
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 

@@ -131,4 +131,53 @@ def one_name_for_two_timers(tree: ast.AST) -> Iterator[Place]:
                 made[name] = statement.lineno
 
 
-LOOKS = (one_name_for_two_timers, local_for_attribute, hidden_methods, defined_twice, attribute_of_the_class)
+def local_for_global(tree: ast.AST) -> Iterator[Place]:
+    """Find `busy = True` in a function without `global busy`: it is never read there, the variable of the module is."""
+    if not isinstance(tree, ast.Module):
+        return
+    module = {
+        target.id
+        for statement in tree.body
+        if isinstance(statement, ast.Assign)
+        for target in statement.targets
+        if isinstance(target, ast.Name)
+    }
+    every = [node for node in ast.walk(tree) if isinstance(node, Function)]
+    reads: dict[str, int] = {}
+    for function in every:
+        names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
+        own = {node.id for node in names if isinstance(node.ctx, ast.Store)} - _declared(function)
+        for node in names:
+            if isinstance(node.ctx, ast.Load) and node.id in module - own - _arguments(function):
+                reads.setdefault(node.id, node.lineno)
+    for function in every:
+        names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
+        loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+        for target, statement in assignments(function):
+            name = target.id if isinstance(target, ast.Name) else ""
+            if name in reads and name not in loaded | _declared(function) | _arguments(function):
+                yield (
+                    statement.lineno,
+                    f"{name} = ... makes a variable of {function.name} alone, and line {reads[name]} reads the one of "
+                    f"the module: write `global {name}` first in {function.name}",
+                )
+
+
+def _declared(function: Function) -> set[str]:
+    return {
+        name for node in ast.walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
+    }  # fmt: skip
+
+
+def _arguments(function: Function) -> set[str]:
+    return {each.arg for each in ast.walk(function) if isinstance(each, ast.arg)}
+
+
+LOOKS = (
+    local_for_global,
+    one_name_for_two_timers,
+    local_for_attribute,
+    hidden_methods,
+    defined_twice,
+    attribute_of_the_class,
+)

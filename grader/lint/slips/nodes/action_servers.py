@@ -79,6 +79,15 @@ def no_result(tree: ast.AST) -> Iterator[Place]:
                 "execute returns nothing, and what it returns is the result that the client gets: return the Result of "
                 "the action after goal_handle.succeed()",
             )
+        elif role == "execute_callback" and isinstance(function, ast.FunctionDef):
+            inside = {id(n) for f in functions(function) if f is not function for n in ast.walk(f)}
+            for node in (each for each in ast.walk(function) if isinstance(each, ast.Return)):
+                if node.value is None and id(node) not in inside:
+                    yield (
+                        node.lineno,
+                        "this return gives no result, and a goal without a result never ends for its client: return a "
+                        "Result of the action here, too",
+                    )
 
 
 def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:

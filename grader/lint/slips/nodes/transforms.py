@@ -110,6 +110,34 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
+    """Find can_transform() of the latest transform before a lookup, not in a try, at the time of a message."""
+    tried = {
+        id(n) for each in ast.walk(tree) if isinstance(each, ast.Try) for part in each.body for n in ast.walk(part)
+    }
+    asked, looked = [], []
+    for call, time in _lookups(tree):
+        (asked if last_name(call.func) == "can_transform" else looked).append((call, time))
+    latest = [call for call, time in asked if time is not None and _is_latest(time)]
+    at_a_time = [call for call, time in looked if time is not None and not _is_latest(time) and id(call) not in tried]
+    if not latest or not at_a_time or len(latest) < len(asked) or len(at_a_time) < len(looked):
+        return
+    if _source(latest[0]) == _source(at_a_time[0]):
+        yield (
+            latest[0].lineno,
+            f"can_transform() asks here for the latest transform, Time(), and line {at_a_time[0].lineno} looks up that "
+            "of another time, which may not be there yet, or no more: ask both for the same time",
+        )
+
+
+def _source(call: ast.Call) -> str:
+    return last_name(call.args[1]) or ast.unparse(call.args[1]) if len(call.args) > 1 else ""
+
+
+def _is_latest(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and last_name(node.func) == "Time" and not node.args and not node.keywords
+
+
 def _is_now(node: ast.expr) -> bool:
     text = ast.unparse(node)
     return text.endswith((".now()", ".now().to_msg()"))
@@ -227,4 +255,4 @@ def _shared(tree: ast.Module) -> Iterator[int]:
         )
 
 
-LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment)
+LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment, other_time_asked_first)

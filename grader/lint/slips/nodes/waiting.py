@@ -172,4 +172,29 @@ def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (executors_never_spun, rates, loops_before_spin, executors, other_node, shut_down_first, sleeps_between_spins)
+def another_executor_spins(tree: ast.AST) -> Iterator[Place]:
+    """Find `rclpy.spin(node)` beside a MultiThreadedExecutor that got the node and is never spun itself."""
+    made = {
+        ast.unparse(node.targets[0])
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Assign) and "MultiThreadedExecutor(" in ast.unparse(node.value)
+    }
+    code = [(call, ast.unparse(call.func)) for call, _ in calls(tree)]
+    for name in made:
+        used = any(text.startswith(f"{name}.spin") for _, text in code)
+        handed = any(name == ast.unparse(each.value) for call, _ in code for each in call.keywords)
+        handed |= any(name == ast.unparse(each) for call, _ in code for each in call.args)
+        for call, text in code:
+            if text in ("rclpy.spin", "spin") and len(call.args) == 1 and not used and not handed and not call.keywords:
+                yield (
+                    call.lineno,
+                    f"{ast.unparse(call)} takes the node out of {name}, and spins it in one thread: the call is "
+                    f"{name}.spin()",
+                )
+                return
+
+
+LOOKS = (
+    executors_never_spun, another_executor_spins, rates, loops_before_spin, executors, other_node, shut_down_first,
+    sleeps_between_spins,
+)  # fmt: skip

@@ -59,6 +59,27 @@ def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
                     )
 
 
+def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a lock that is taken in a test of a goal, before other tests that may still refuse it."""
+    for function in _judges(tree):
+        for number, statement in enumerate(function.body):
+            taken = [
+                each.func.value
+                for each in (ast.walk(statement.test) if isinstance(statement, ast.If) else ())
+                if isinstance(each, ast.Call) and isinstance(each.func, ast.Attribute) and each.func.attr == "acquire"
+            ]
+            later = _refusals(function.body[number + 1 :])
+            released = "release" in {name for part in function.body for name in called(part)}
+            if taken and later and not released:
+                name = ast.unparse(taken[0])
+                yield (
+                    statement.lineno,
+                    "refuses_all",
+                    f"{name} is acquired before line {later[0]} rejects a goal, and nothing releases it then, so every "
+                    "goal after a rejected one is refused, too: acquire it last, right before GoalResponse.ACCEPT",
+                )
+
+
 def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
     """Find what is kept of a goal before it is refused, where another function uses it."""
     for function in _judges(tree):
@@ -177,6 +198,12 @@ def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
 
 
 LOOKS = (
-    set_before_the_answer, kept_of_refused_goals, cancelled_for_ever, events_never_cleared, active_is_not_cancelled,
-    aborts_at_the_end, feedback_never_sent,
-)  # fmt: skip
+    set_before_the_answer,
+    locked_before_the_answer,
+    kept_of_refused_goals,
+    cancelled_for_ever,
+    events_never_cleared,
+    active_is_not_cancelled,
+    aborts_at_the_end,
+    feedback_never_sent,
+)

@@ -165,7 +165,31 @@ def summed_places(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a program that reads the velocity of the odometry, and nowhere its position."""
+    named = {each.attr: each for each in ast.walk(tree) if isinstance(each, ast.Attribute)}
+    if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
+        return
+    whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".twist.twist")}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
+            owner = ast.unparse(node.value)
+            if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:
+                yield (
+                    node.lineno,
+                    "no_place",
+                    f"{ast.unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
+                    "pose.pose.position of the odometry",
+                )
+                return
+
+
 LOOKS = (
-    loops_that_do_not_ask, breaks_of_the_inner_loop, counts_that_go_on, one_axis_is_enough, one_side_of_an_angle,
+    velocities_for_places,
+    loops_that_do_not_ask,
+    breaks_of_the_inner_loop,
+    counts_that_go_on,
+    one_axis_is_enough,
+    one_side_of_an_angle,
     summed_places,
-)  # fmt: skip
+)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
 from collections.abc import Iterator
 
@@ -10,6 +11,7 @@ from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name
 
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
+MOST = 3.2  # [rad] a larger limit of an angle was meant in degrees
 PER_DEGREE = 0.1  # [rad/s] a gain below it may well be meant for degrees
 SINES = frozenset({"cos", "sin", "tan"})
 TO_DEGREES = frozenset({"degrees", "rad2deg"})
@@ -211,7 +213,32 @@ def _of_quaternion(node: ast.AST) -> bool:
     return {"z", "w"} <= parts
 
 
+def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angle in radians that is compared with a number above pi, in a file that makes no degrees."""
+    if called(tree) & (TO_DEGREES | TO_RADIANS) or not called(tree) & {"atan2", "arctan2"}:
+        return
+    numbers = [each.value for each in ast.walk(tree) if isinstance(each, ast.Constant)]
+    if any(each in (180, 360, 57.3, 57.29578) for each in numbers if isinstance(each, int | float)):
+        return
+    known = named_numbers(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+            continue
+        left = node.left
+        if isinstance(left, ast.Call) and last_name(left.func) in ("abs", "fabs") and left.args:
+            left = left.args[0]
+        name = last_name(left.func if isinstance(left, ast.Call) else left)
+        limit = number(node.comparators[0], known)
+        if re.search(r"angle|bearing|heading|yaw|turn|theta", name) and limit is not None and MOST < limit <= 180:
+            yield (
+                node.lineno,
+                "angle",
+                f"`{ast.unparse(node)[:60]}`: an angle in radians is at most 3.14, and {limit:g} degrees are "
+                f"{math.radians(limit):.2g}",
+            )
+
+
 LOOKS = (
     headings_in_degrees, quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first,
-    degrees_beside_radians, differences,
+    degrees_beside_radians, differences, limits_in_degrees,
 )  # fmt: skip

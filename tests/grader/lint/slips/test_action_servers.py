@@ -54,6 +54,11 @@ def test_a_right_file_has_none():
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
+        (
+            "            time.sleep(0.1)\n",
+            "            time.sleep(0.1)\n            if handle.is_cancel_requested:\n                return\n",
+            "this return gives no result",
+        ),
         ("return CancelResponse.ACCEPT", "return True", "return CancelResponse.ACCEPT or CancelResponse.REJECT"),
         (
             "return CancelResponse.ACCEPT",

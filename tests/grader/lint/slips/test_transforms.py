@@ -18,6 +18,7 @@ class Hit(Node):
 {body}
 """
 ASK = "self.buffer.lookup_transform('odom', scan.header.frame_id, Time.from_msg(scan.header.stamp))"
+LATEST = "self.buffer.can_transform('odom', scan.header.frame_id, Time())"
 
 
 def node(*lines):
@@ -33,6 +34,7 @@ def node(*lines):
             "nothing fills",
         ),
         (node("while not self.buffer.can_transform('odom', 'x', Time()):", "    pass"), "it never ends"),
+        (node(f"if {LATEST}:", f"    t = {ASK}"), "ask both for the same time"),
         (
             node("while True:", "    try:", f"        t = {ASK}", "        break", "    except E:", "        pass"),
             "never ends",

@@ -1,0 +1,41 @@
+"""A lock that is taken again by the thread that holds it, and so waits for itself."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+
+
+def _taken(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[str, ast.With]]:
+    for node in ast.walk(function):
+        if isinstance(node, ast.With):
+            for item in node.items:
+                if (name := ast.unparse(item.context_expr)) in locks:
+                    yield name, node
+
+
+def taken_twice(tree: ast.AST) -> Iterator[Place]:
+    """Find a function that is called while a Lock is held, and that takes the same Lock."""
+    locks = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Call) and last_name(value.func) == "Lock"
+    }
+    takers = {(function.name, name) for function in functions(tree) for name, _ in _taken(function, locks)}
+    for function in functions(tree):
+        for lock, held in _taken(function, locks):
+            for part in held.body:
+                for call, name in calls(part):
+                    own = ast.unparse(call.func) in (name, f"self.{name}")
+                    if own and (name, lock) in takers:
+                        yield (
+                            call.lineno,
+                            f"{ast.unparse(call.func)}() takes {lock}, which line {held.lineno} holds already, so it "
+                            "waits for ever: a Lock can be taken once only, an RLock again by the same thread",
+                        )
+                        return
+
+
+LOOKS = (taken_twice,)
