@@ -46,8 +46,11 @@ def _ahead_of(h, begins=GAP):
     return np.cos(h.heading) * x + np.sin(h.heading) * y
 
 
-def to_the_place(every, line):
-    """Return what is wrong with a speed that is made of the distance to the place behind the robot in front."""
+def to_the_place(every, line, usual=0.0):
+    """Return what is wrong with a speed that is made of the distance to the place behind the robot in front.
+
+    `usual` is how well the distance to that robot explains the speeds.
+    """
     best, zero, past = 0.0, 0.0, False
     for h in every:
         x = h.front_x + GAP - GAP * np.cos(h.front_heading) - h.x
@@ -57,7 +60,7 @@ def to_the_place(every, line):
             fit = line(length, every[0].linear)
             if fit is not None and fit[0] > 0 and fit[2] > best:
                 best, zero, past = fit[2], -fit[1] / fit[0], unsigned and nearer
-    if best < FITS:
+    if best < max(FITS, usual + BETTER * (1 - usual)):
         return ""
     if abs(zero) < NEAR and past:
         return (

@@ -40,6 +40,7 @@ from gz_course.grader.lint.slips.language.everyday import LONGEST_PERIOD, period
 from gz_course.grader.lint.slips.nodes import (
     action_servers,
     callbacks,
+    called_once,
     endless_spins,
     endless_waits,
     parameters,
@@ -56,7 +57,8 @@ from gz_course.grader.lint.syntax import Places, places_in
 MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
-    everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, late_binding.LOOKS, waiting.LOOKS, names.LOOKS,
+    everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, called_once.LOOKS, late_binding.LOOKS, waiting.LOOKS,
+    names.LOOKS,
     never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS,
     no_effect.LOOKS, parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS,

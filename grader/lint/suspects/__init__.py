@@ -32,6 +32,7 @@ from gz_course.grader.lint.suspects.steering import (
     smoothing,
     stale_parameters,
     steering_units,
+    stopping_flags,
     turning_signs,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -50,6 +51,7 @@ LOOKS = (
     *bearings.LOOKS,
     *feedback.LOOKS,
     *followers.LOOKS,
+    *stopping_flags.LOOKS,
     *smoothing.LOOKS,
     *stale_parameters.LOOKS,
     *steering_units.LOOKS,
