@@ -138,7 +138,7 @@ MEANINGS = (
         "values of launch arguments and words of a command are texts: '0.5' in quotes, or str(...) of a number",
     ),
     (
-        re.compile(r"the Python expression '.*' fails with NameError: name '(true|false)' is not defined"),
+        re.compile(r"the Python expression ['\"].*['\"] fails with NameError: name '(true|false)' is not defined"),
         "the value of an argument is put into the expression as it was typed, and Python writes True and False: use "
         "IfCondition or UnlessCondition, or compare in quotes, [\"'\", value, \"' == 'true'\"]",
     ),

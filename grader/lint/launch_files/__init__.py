@@ -14,6 +14,7 @@ from gz_course.grader.lint.launch_files import (
     actions,
     commands,
     creating,
+    flags,
     namespaces,
     ros_arguments,
     unread,
@@ -51,7 +52,7 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         file = LaunchFile(tree)
         looks = (
             *values.LOOKS, *actions.LOOKS, *creating.LOOKS, *commands.LOOKS, *ros_arguments.LOOKS, *namespaces.LOOKS,
-            *waiting.LOOKS,
+            *waiting.LOOKS, *flags.LOOKS,
         )  # fmt: skip
         slips = [place for look in looks for place in look(file)]
         slips += [*kept_defaults(tree), *first_iteration(tree), *namespaces.slashes_in_rules(file, nodes)]
