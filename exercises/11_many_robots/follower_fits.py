@@ -195,9 +195,11 @@ def speed(every):
     fits = right is not None and right[2] > FITS
     if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
         return _pauses(every) or _of_the_gap(v, *right[:2])
-    other = ORIGINS["begun_elsewhere"](every, line)
+    other = ORIGINS["other_places"](every, line, right[2] if right is not None else 0.0)
+    other = other or ORIGINS["begun_elsewhere"](every, line)
     other = other or ORIGINS["to_the_place"](every, line, right[2] if right is not None else 0.0)
-    other = other or _best([each for h in every for each in _lengths(h)], v, right)
+    if not other and not ORIGINS["to_behind"](every, line):
+        other = _best([each for h in every for each in _lengths(h)], v, right)
     return other or _pauses(every) or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
 
 

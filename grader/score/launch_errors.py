@@ -33,6 +33,10 @@ NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(r"\.py' cannot be started: it is not executable"),
+        "a Python file is started by Python, ExecuteProcess(cmd=[sys.executable, PATH, ...])",
+    ),
+    (
         re.compile(r"UnknownROSArgsError: \['([\w.]+:=[^']*)'"),
         "-p is missing before {0}: behind --ros-args, a parameter is two words, -p NAME:=VALUE, and a remapping is -r "
         "FROM:=TO",

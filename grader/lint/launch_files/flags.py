@@ -10,7 +10,9 @@ from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, text
 
 PAUSED = "paused"
 TRUE = re.compile(r"^\s*(['\"])(.*?)\1\s+if\b(.*?)\belse\s*(['\"])(.*?)\4\s*$")
-HOLDS = re.compile(rf"\b{PAUSED}\b\W*(?:\)|\])?\W*(?:\.lower\(\))?\W*==\W*true\b|\btrue\b\W*==\W*{PAUSED}\b", re.IGNORECASE)
+HOLDS = re.compile(
+    rf"\b{PAUSED}\b\W*(?:\)|\])?\W*(?:\.lower\(\))?\W*==\W*true\b|\btrue\b\W*==\W*{PAUSED}\b", re.IGNORECASE
+)
 
 
 def runs_when_paused(file: LaunchFile) -> Iterator[Place]:

@@ -21,9 +21,10 @@ from gz_course.grader.score.launch_errors import launch_meaning
         ("there is no option '-x -1.2'; options are: -P", "'-x -1.2' is one word with a space in it"),
         ("TypeError: int() argument must be a string, not 'LaunchConfiguration'", ".perform(context)) is its number"),
         (
-            "the Python expression \"'' if false == 'true' else '-r'\" fails with NameError: name 'false' is not defined",
+            "the Python expression \"'' if false == 'true'\" fails with NameError: name 'false' is not defined",
             "compare in quotes",
         ),
+        ("'/submission/watch.py' cannot be started: it is not executable (chmod", "cmd=[sys.executable, PATH"),
         ("launch configuration 'word' does not exist", "declares word"),
         ("b.launch.py:3: invalid condition expression: 'paused'; true, false, 1 or 0 is expected", "not its name in"),
         ("AttributeError: 'LaunchConfiguration' object has no attribute 'endswith'", "is no text and has no endswith"),
