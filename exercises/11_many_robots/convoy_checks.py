@@ -10,23 +10,24 @@ import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
+from gz_course.grader.score.launch_errors import launch_meaning
 from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
 from gz_course.grader.score.suspects import suspect
 
 GAP = 1.2  # [m]
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
-ROW = 0.15  # [m] that a robot may start beside its place
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
 AT_REST = 0.3  # [m] that the gap may be off in the end
 OF_A_ROBOT = re.compile(r"/robot\d+/")
 NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
 STARTED = re.compile(r"^\[INFO\] \[create-\d+\]: process started")
-NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 HEADING = "its own heading"  # words of an explanation that a line of the file may say better
 TYPES = {"ROS_TO_GZ": "geometry_msgs/msg/Twist", "GZ_TO_ROS": "nav_msgs/msg/Odometry"}
 DRIVES, HEARS = "cmd_vel", "odom"
 ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
 _few, _too_seldom = ENDS["few"], ENDS["too_seldom"]
+ROWS = runpy.run_path(str(Path(__file__).with_name("convoy_rows.py")))
+ROW, _misplaced = ROWS["ROW"], ROWS["misplaced"]
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
@@ -52,7 +53,7 @@ def in_a_row(recording, parameters):
     there = _there(recording)
     if not there:
         said = _create_said(recording)
-        why = "" if said else "create of ros_gz_sim puts a model into a running world"
+        why = launch_meaning(said) if said else "create of ros_gz_sim puts a model into a running world"
         if match := NO_MODEL.search(said):
             why = (
                 f"{match[1]} is looked for in the folder in which ros2 launch is called, and not beside the launch "
@@ -93,6 +94,8 @@ def in_a_row(recording, parameters):
             )
         elif len(there) > len(names):
             why = f"the argument robots has no effect: {len(names)} robots were asked for"
+        if there == names[: len(there)] and not failed:
+            why = ROWS["ends_there"](recording, len(there), called) or why
         why = declared(recording, "robots", "2") or why
         return Finding(False, expected, f"{called}, there were {', '.join(there)}", explanation=why)
     for number, name in enumerate(names):
@@ -106,29 +109,6 @@ def in_a_row(recording, parameters):
             measured = f"{name} began with a heading of {yaw:.2f} rad, and does not look along x"
             return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"{called}, so it was")
-
-
-def _misplaced(recording, names):
-    """Return how the robots stand instead of in their row; empty if in no way that is known."""
-    x, y = ([float(recording.signal(f"truth/{name}/{axis}").values[0]) for name in names] for axis in ("x", "y"))
-    if len(names) < 2:
-        return ""
-    places = list(zip(x, y, strict=True))
-    steps = [(two[0] - one[0], two[1] - one[1]) for one, two in itertools.pairwise(places)]
-    if max(abs(step[axis] - steps[0][axis]) for step in steps for axis in (0, 1)) > ROW:
-        return ""
-    ahead, aside = steps[0]
-    if math.hypot(ahead, aside) < ROW:
-        return "all begin at one place: -x of create is the same for all, or is missing"
-    if abs(aside) > ROW and abs(ahead) < ROW:
-        return "they stand side by side: the row is along x, and -x of create places a robot there"
-    if abs(ahead - GAP) < ROW:
-        return "each stands in front of the one before: behind is -x"
-    if abs(ahead + GAP) > ROW:
-        return f"they stand {abs(ahead):.2f} m apart, and {GAP} m is asked for"
-    if abs(x[0] + GAP) < ROW:
-        return "the row begins one place too far behind: robot1 is at x = 0, so robot N is at -1.2 * (N - 1)"
-    return ""
 
 
 def one_clock(recording, parameters):
@@ -179,6 +159,11 @@ def own_topics(recording, parameters):
                 )
             elif other in ("/cmd_vel", "/odom"):
                 why = "without a namespace, the topics of all robots are one"
+            elif other.startswith(f"/{name_in(topic)}/{name_in(topic)}/"):
+                why = (
+                    f"a name that does not begin with / is put into the namespace of the bridge, /{name_in(topic)}, "
+                    f"which then stands there twice: {topic.rpartition('/')[2]} or {topic} is the name to remap to"
+                )
             elif own := [node for node in nodes if other.startswith(f"{node}/")]:
                 why = _private(other, own[0])
             elif other == gz_topic:
@@ -244,14 +229,20 @@ def listens_to_the_one_in_front(recording, parameters):
             why = f"the name of the node is to be follower, in the namespace /{name}" if others else ""
             if all(each.endswith("/follower") for each in others):
                 why = ""
-            if name == names[-1] and others == [f"/{each}/follower" for each in names[1:-1]] != []:
-                why = f"only the last robot, {name}, has no follower, as with a range(2, n), which ends before n"
+            if len(names) > 2 and len(others) < len(names) - 1:
+                why = ENDS["one_name_for_several"](ENDS["started"](recording), others) or why
+                why = why or ENDS["missing"](name, names, others)
             if "/follower" in others:
                 why = "its node has no namespace: all followers have the same name"
-            if not others and (program := _no_program(recording)):
+            if not others and (program := ENDS["no_program"](recording)):
                 why = f"there is no program '{program}'"
                 if " " in program:
                     why = "the whole command line is one word: cmd is a list of words, [sys.executable, file, ...]"
+            elif not others and not why and not ENDS["started"](recording):
+                why = (
+                    "the launch has started nothing but simulator, bridges and create: the action that starts "
+                    "follower_node.py is in no list that is returned, or waits for an event that never comes"
+                )
             measured = f"there was no node {node}" + (f"; there was {', '.join(others)}" if others else "")
             return Finding(False, expected, measured, explanation=why)
         heard = sorted({e["topic"] for e in ends if e["node"] == node and e["kind"] == "subscription"} - {"/clock"})
@@ -265,6 +256,11 @@ def listens_to_the_one_in_front(recording, parameters):
                 why = f"in front of {name} is {front}, not robot1"
             elif below := [topic for topic in heard if topic.startswith(f"/{name}/") and topic.count("/") > 2]:
                 why = _below_its_namespace(below[0], name, wanted)
+                if sorted(heard) == sorted([f"/{front}/{HEARS}", f"/{name}/front/{HEARS}"]):
+                    why = (
+                        f"{HEARS}, its own odometry, is remapped to /{front}/{HEARS}, and front/{HEARS} is not: the "
+                        f"rule is front/{HEARS}:=/{front}/{HEARS}"
+                    )
             elif heard == [f"/{name}/{HEARS}"]:
                 why = f"it hears only its own odometry: that of the robot in front is /{front}/{HEARS}"
             elif heard == [f"/{front}/{HEARS}"]:
@@ -294,12 +290,6 @@ def listens_to_the_one_in_front(recording, parameters):
     return Finding(True, expected, f"{len(names) - 1} followers, so it was")
 
 
-def _no_program(recording):
-    """Return the program of an action that the launch did not find; empty if it found all."""
-    lines = (NO_PROGRAM.search(line.text) for line in recording.lines("log/student"))
-    return next((match[1] for match in lines if match), "")
-
-
 def _below_its_namespace(topic, name, wanted):
     """Return why a subscription is below the follower's own namespace."""
     relative = topic.removeprefix(f"/{name}/")
@@ -318,6 +308,14 @@ def _private(topic, node):
         f"{topic} has the name of the node in it: ~ stands for namespace and name of a node, {node}; {last} without ~ "
         f"becomes {space}/{last}"
     )
+
+
+def _stopped(recording, sent):
+    return suspect(recording, "stopped") if sent and FITS["LAGS"]["stopped"](sent) else ""
+
+
+def _late(recording, name, front):
+    return FITS["LAGS"]["late"](recording, name, front, FITS["heard"], FITS["line"])
 
 
 def _reason(sent):
@@ -347,7 +345,8 @@ def keeps_together(recording, parameters):
         sent = FITS["heard"](recording, name, front)
         if driven[name] < 0.3:
             why = "its node publishes no speed above zero"
-            seen = suspect(recording, "first_kept", "whole_speed") or (FITS["seen_elsewhere"](sent) if sent else "")
+            seen = _stopped(recording, sent) or suspect(recording, "first_kept", "whole_speed")
+            seen = seen or (FITS["seen_elsewhere"](sent) if sent else "")
             if said := seen or FITS["ORIGINS"]["sideways"](recording, name):
                 why = f"its node publishes no speed above zero: {said}"
             elif few := _few(recording, name):
@@ -366,11 +365,14 @@ def keeps_together(recording, parameters):
                             "timers of its nodes never fire: it comes from Gazebo, [gz.msgs.Clock"
                         )
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reason = suspect(recording, "first_kept") or FITS["ORIGINS"]["sideways"](recording, name)
+        reason = _stopped(recording, sent) or suspect(recording, "first_kept")
+        reason = reason or FITS["ORIGINS"]["sideways"](recording, name)
         reason = reason or (_reason(sent) if sent else "")
+        reason += ROWS["added_up"](reason, names.index(name))
         if HEADING in reason:
             reason = suspect(recording, "heading", "angle") or reason
-        reason = reason or _too_seldom(recording, name) or suspect(recording, "heading", "angle")
+        reason = reason or _late(recording, name, front) or _too_seldom(recording, name)
+        reason = reason or suspect(recording, "heading", "angle")
         times, x, y = paths[name]
         front_times, front_x, front_y = paths[front]
         gap = np.hypot(np.interp(times, front_times, front_x) - x, np.interp(times, front_times, front_y) - y)

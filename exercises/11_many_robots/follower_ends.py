@@ -1,9 +1,15 @@
 """Why a follower gets or sends nothing although its topics have the right names: types and quality of service."""
 
+import re
+
 import numpy as np
 
 SELDOM = 0.4  # [s] between the commands of a follower
 FEWEST = 8  # commands of a follower that goes on
+BY_OTHERS = re.compile(
+    r"^\[INFO\] \[(?!gz-|gazebo-|parameter_bridge-|create-|ruby-|ros2-)([^\]]+)-\d+\]: process started"
+)
+NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
 
 
@@ -53,3 +59,37 @@ def too_seldom(recording, name):
         f"its node sends a command every {apart:.1f} s only, and the robot obeys the old one meanwhile: it falls "
         "behind, and drives on when it should stop; call create_timer with a shorter period [s], such as 0.1"
     )
+
+
+def one_name_for_several(started, followers):
+    """Return that several programs have become one node, by its name; empty if as many have started as there are."""
+    if not followers or started <= len(followers):
+        return ""
+    return (
+        f"{started} programs were started, and all are called {' or '.join(followers)}: the namespace is that of the "
+        "command line, -r __ns:=/robot3, and one that is written into the node itself counts for all of them"
+    )
+
+
+def missing(name, names, followers):
+    """Return which robots have no follower, if it is only the last one, or all but the last one; else nothing."""
+    if name == names[-1] and followers == [f"/{each}/follower" for each in names[1:-1]]:
+        return f"only the last robot, {name}, has no follower, as with a range(2, n), which ends before n"
+    if followers == [f"/{names[-1]}/follower"]:
+        return (
+            f"only the last robot, {names[-1]}, has a follower: its action is made once, behind the loop over the "
+            "robots, or each turn of the loop replaces that of the one before"
+        )
+    return ""
+
+
+def started(recording):
+    """Return how often the launch has started the program that it starts most, besides simulator, bridges, create."""
+    names = [match[1] for line in recording.lines("log/student") if (match := BY_OTHERS.match(line.text))]
+    return max((names.count(name) for name in names), default=0)
+
+
+def no_program(recording):
+    """Return the program of an action that the launch did not find; empty if it found all."""
+    lines = (NO_PROGRAM.search(line.text) for line in recording.lines("log/student"))
+    return next((match[1] for match in lines if match), "")

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 ORIGINS = runpy.run_path(str(Path(__file__).with_name("follower_origins.py")))
+LAGS = runpy.run_path(str(Path(__file__).with_name("follower_lags.py")))
 GAP = 1.2  # [m]
 FEWEST = 8  # commands; fewer may fit a line by chance
 DELAYS = (0, 50_000_000, 100_000_000)  # [ns] between what a node has heard and what it sends: its timer may fire first
@@ -186,14 +187,19 @@ def speed(every):
         return f"it sends speeds of up to {fastest:.0f} m/s: linear.x is in metres per second, and robot1 drives 0.5"
     if any(copied(v, h.front_linear) for h in every):
         return "its speed is that of the robot in front, whatever the distance"
+    if words := LAGS["exchanged"](every, line) or LAGS["held_by_the_front"](every):
+        return words
     if words := _summed(every):
         return words
     right = _closest([(h.distance, "") for h in every], v)
     fits = right is not None and right[2] > FITS
     if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
         return _pauses(every) or _of_the_gap(v, *right[:2])
-    other = ORIGINS["begun_elsewhere"](every, line) or ORIGINS["to_the_place"](every, line)
-    other = other or _best([each for h in every for each in _lengths(h)], v, right)
+    other = ORIGINS["other_places"](every, line, right[2] if right is not None else 0.0)
+    other = other or ORIGINS["begun_elsewhere"](every, line)
+    other = other or ORIGINS["to_the_place"](every, line, right[2] if right is not None else 0.0)
+    if not other and not ORIGINS["to_behind"](every, line):
+        other = _best([each for h in every for each in _lengths(h)], v, right)
     return other or _pauses(every) or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
 
 
@@ -239,6 +245,8 @@ def _sides(angle, commands):
 
 
 def _lengths(h):
+    for length in (np.hypot(h.front_x, h.front_y), np.hypot(h.front_x + GAP, h.front_y)):
+        yield length, "its speed depends on the place of the robot in front alone: its own place is not subtracted"
     yield (
         np.hypot(h.front_x - h.x, h.front_y - h.y),
         f"it falls behind, because the distance that it keeps is wrong: {PLACES}",
@@ -331,7 +339,7 @@ def _of_the_gap(v, slope, offset):
 def _limits(v):
     fastest, slowest = float(v.max()), float(v.min())
     if fastest <= 1e-6 and slowest < -EDGE:
-        return "it drives backwards: all its speeds are below zero, so the sign of linear.x is wrong"
+        return "it drives backwards: all its speeds are below zero"
     if (np.abs(v - fastest) < 1e-6).sum() >= FEWEST and fastest < 0.5 - EDGE:
         return f"it never drives faster than {fastest:.2f} m/s, and robot1 drives 0.5 m/s"
     if (np.abs(v - slowest) < 1e-6).sum() >= FEWEST and slowest > EDGE:

@@ -46,8 +46,11 @@ def _ahead_of(h, begins=GAP):
     return np.cos(h.heading) * x + np.sin(h.heading) * y
 
 
-def to_the_place(every, line):
-    """Return what is wrong with a speed that is made of the distance to the place behind the robot in front."""
+def to_the_place(every, line, usual=0.0):
+    """Return what is wrong with a speed that is made of the distance to the place behind the robot in front.
+
+    `usual` is how well the distance to that robot explains the speeds.
+    """
     best, zero, past = 0.0, 0.0, False
     for h in every:
         x = h.front_x + GAP - GAP * np.cos(h.front_heading) - h.x
@@ -57,7 +60,7 @@ def to_the_place(every, line):
             fit = line(length, every[0].linear)
             if fit is not None and fit[0] > 0 and fit[2] > best:
                 best, zero, past = fit[2], -fit[1] / fit[0], unsigned and nearer
-    if best < FITS:
+    if best < max(FITS, usual + BETTER * (1 - usual)):
         return ""
     if abs(zero) < NEAR and past:
         return (
@@ -67,6 +70,51 @@ def to_the_place(every, line):
     if abs(zero - GAP) < NEAR:
         return "it keeps 1.2 m to the place that is 1.2 m behind the robot in front: the gap is subtracted twice"
     return ""
+
+
+def other_places(every, line, usual=0.0):
+    """Return to which other place than that behind the robot in front a follower drives; empty if to none known.
+
+    `usual` is how well the distance to that robot explains the speeds.
+    """
+    right, found = 0.0, []
+    for h in every:
+        for words, (east, north) in _places(h):
+            x, y = h.front_x + GAP + east - h.x, h.front_y + north - h.y
+            for length in (np.hypot(x, y), np.cos(h.heading) * x + np.sin(h.heading) * y):
+                fit = line(length, h.linear)
+                if fit is None or fit[0] <= 0 or abs(fit[1] / fit[0]) > NEAR:
+                    continue
+                right = max(right, fit[2]) if not words else right
+                found.append((fit[2], words))
+    best, words = max(found, default=(0.0, ""))
+    least = max(right, usual)
+    return words if best > max(FITS, least + BETTER * (1 - least)) else ""
+
+
+def to_behind(every, line):
+    """Return whether the speeds are made of how far ahead the place behind the robot in front is, as they may be."""
+    for h in every:
+        fit = line(_ahead_of(h), every[0].linear)
+        if fit is not None and fit[0] > 0 and fit[2] > FITS and abs(fit[1] / fit[0]) < NEAR:
+            return True
+    return False
+
+
+def _places(h):
+    """Yield places beside the robot in front, from its middle; without words that behind it."""
+    c, s = GAP * np.cos(h.front_heading), GAP * np.sin(h.front_heading)
+    yield "", (-c, -s)
+    yield (
+        "it drives to the place 1.2 m ahead of the robot in front, and not behind it: behind is "
+        "x - 1.2 * cos(heading), y - 1.2 * sin(heading)",
+        (c, s),
+    )
+    yield (
+        "it exchanges cos and sin in the place behind the robot in front: that is x - 1.2 * cos(heading), "
+        "y - 1.2 * sin(heading)",
+        (-s, -c),
+    )
 
 
 def behind(every):

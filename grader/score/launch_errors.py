@@ -33,8 +33,34 @@ NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = (
     (
+        re.compile(r"\.py' cannot be started: it is not executable"),
+        "a Python file is started by Python, ExecuteProcess(cmd=[sys.executable, PATH, ...])",
+    ),
+    (
+        re.compile(r"UnknownROSArgsError: \['([\w.]+:=[^']*)'"),
+        "-p is missing before {0}: behind --ros-args, a parameter is two words, -p NAME:=VALUE, and a remapping is -r "
+        "FROM:=TO",
+    ),
+    (
+        re.compile(r"of OpaqueFunction returned holds \[.*of type list"),
+        "a list stands in the list that it returns: actions += [...] and actions.extend([...]) add the items of a "
+        "list, actions.append([...]) adds the list itself",
+    ),
+    (
+        re.compile(r"there is no option '(--?\w+) ([^']+)'"),
+        "'{0} {1}' is one word with a space in it: '{0}' and its value are two items of the list",
+    ),
+    (
         re.compile(r"Couldn't parse parameter override rule: '-p ([^']*)'"),
         "{0} sets no parameter: after -p comes NAME:=VALUE, with := and no spaces, such as use_sim_time:=true",
+    ),
+    (
+        re.compile(r"Couldn't parse remap rule: '-r __ns:=([^/'{}][^']*)'"),
+        "a namespace begins with /: __ns:=/{0}",
+    ),
+    (
+        re.compile(r"Couldn't parse remap rule: '-r ([^'{} ]+:=[\w/]*-[^'{} ]*)'"),
+        "{0} is no remapping: the names of ROS consist of letters, digits, _ and /, and here is a -",
     ),
     (
         re.compile(r"Couldn't parse remap rule: '-r ([^']*)'"),
@@ -55,7 +81,8 @@ MEANINGS = (
     (
         re.compile(r"(?:float|int)\(\) argument must be .*LaunchConfiguration"),
         "a LaunchConfiguration has no value while the description is made, so Python cannot convert it: "
-        "ParameterValue(..., value_type=float) converts it when the launch runs",
+        "in the function of an OpaqueFunction, int(LaunchConfiguration('NAME').perform(context)) is its number; for a "
+        "parameter of a node, ParameterValue(..., value_type=float) converts it when the launch runs",
     ),
     (
         re.compile(r"missing required argument '([^']+)'"),
@@ -115,7 +142,7 @@ MEANINGS = (
         "values of launch arguments and words of a command are texts: '0.5' in quotes, or str(...) of a number",
     ),
     (
-        re.compile(r"the Python expression '.*' fails with NameError: name '(true|false)' is not defined"),
+        re.compile(r"the Python expression ['\"].*['\"] fails with NameError: name '(true|false)' is not defined"),
         "the value of an argument is put into the expression as it was typed, and Python writes True and False: use "
         "IfCondition or UnlessCondition, or compare in quotes, [\"'\", value, \"' == 'true'\"]",
     ),

@@ -24,6 +24,7 @@ _LIBRARIES = tuple(
     folder + os.sep
     for folder in {sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib", "scripts")}
 )
+_WATCHING = f"{os.sep}course_agent{os.sep}"  # code of the grader in the processes that it watches
 Place = tuple[str, int | str]
 """A file and a line, or a text `line:column`."""
 _written_at: ContextVar[Place | None] = ContextVar("_written_at", default=None)
@@ -103,4 +104,4 @@ def _place_in(error: BaseException) -> Place | None:
 
 
 def _is_of_the_user(path: str) -> bool:
-    return not path.startswith(("<", *_OWN_FOLDERS, *_LIBRARIES))
+    return not path.startswith(("<", *_OWN_FOLDERS, *_LIBRARIES)) and _WATCHING not in path

@@ -14,13 +14,16 @@ from gz_course.grader.lint.launch_files import (
     actions,
     commands,
     creating,
+    flags,
     namespaces,
     ros_arguments,
     unread,
     values,
+    waiting,
 )
 from gz_course.grader.lint.launch_files.commas import missing_commas
 from gz_course.grader.lint.launch_files.conditions import bridges, simulators
+from gz_course.grader.lint.launch_files.counts import fixed_counts
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
@@ -40,6 +43,7 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
     with a default that nothing declares: `line`, `name` and `default` (a text, or empty). `remappings` are those of its
     nodes, as `remappings.py` says. `programs` are the Python programs that it starts, as `sim_time.py` says, and
     `simulators_made` and `bridges_made` the actions that start a simulator or a bridge, as `conditions.py` says.
+    `fixed_counts` are loops that make so many actions at most, as `counts.py` says.
     `nodes` are the programs that come with the file, by name.
     """
     found: dict[str, Places] = {}
@@ -48,6 +52,7 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         file = LaunchFile(tree)
         looks = (
             *values.LOOKS, *actions.LOOKS, *creating.LOOKS, *commands.LOOKS, *ros_arguments.LOOKS, *namespaces.LOOKS,
+            *waiting.LOOKS, *flags.LOOKS,
         )  # fmt: skip
         slips = [place for look in looks for place in look(file)]
         slips += [*kept_defaults(tree), *first_iteration(tree), *namespaces.slashes_in_rules(file, nodes)]
@@ -73,6 +78,7 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         found["remappings"] = list(remappings(file))[: 2 * MOST]
         found["programs"] = list(programs(file))[: 2 * MOST]
         found["bridges_made"] = list(bridges(file))[: 2 * MOST]
+        found["fixed_counts"] = list(fixed_counts(file))[: 2 * MOST]
         found["simulators_made"] = list(simulators(file))[: 2 * MOST]
         return []
 

@@ -169,6 +169,14 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
         arguments = argument(call, "arguments")
         if arguments is not None and "config_file" not in ast.unparse(call):
             yield from _file_as_topic(file, arguments)
+        elif arguments is not None and "--ros-args" not in ast.unparse(file.value(arguments) or arguments):
+            for each in ast.walk(file.value(arguments) or arguments):
+                if text(each).startswith("config_file:=") and isinstance(each, ast.Constant):
+                    yield (
+                        each.lineno,
+                        "config_file:=... is no parameter among the arguments, which are topics: it is one in "
+                        "parameters=[{'config_file': PATH}]",
+                    )
         if not isinstance(given, ast.List):
             continue
         names = [text(key) for each in given.elts if isinstance(each, ast.Dict) for key in each.keys]

@@ -50,6 +50,7 @@ from gz_course.grader.lint.slips.language.everyday import LONGEST_PERIOD, period
 from gz_course.grader.lint.slips.nodes import (
     action_servers,
     callbacks,
+    called_once,
     endless_spins,
     endless_waits,
     parameters,
@@ -72,7 +73,7 @@ ROOMS = (
     scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS, euler_angles.LOOKS, exact_sums.LOOKS, starts.LOOKS,
     sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS, limits.LOOKS, conditions.LOOKS,
     resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
-    one_array.LOOKS, endless_waits.LOOKS, own_calls.LOOKS, limited_values.LOOKS, locks.LOOKS,
+    one_array.LOOKS, endless_waits.LOOKS, own_calls.LOOKS, limited_values.LOOKS, locks.LOOKS, called_once.LOOKS,
 )  # fmt: skip
 
 

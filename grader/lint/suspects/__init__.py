@@ -43,6 +43,7 @@ from gz_course.grader.lint.suspects.steering import (
     speed_limits,
     stale_parameters,
     steering_units,
+    stopping_flags,
     turning_signs,
 )
 from gz_course.grader.lint.syntax import Places, places_in
@@ -61,6 +62,7 @@ LOOKS = (
     *bearings.LOOKS,
     *feedback.LOOKS,
     *followers.LOOKS,
+    *stopping_flags.LOOKS,
     *smoothing.LOOKS,
     *stale_parameters.LOOKS,
     *steering_units.LOOKS,

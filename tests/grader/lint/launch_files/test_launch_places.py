@@ -159,6 +159,11 @@ def test_a_right_file_has_none():
         ),
         ('parameters=[{"config_file": str(HERE / "bridge.yaml")}]', "arguments=[HERE / 'bridge.yaml']", "are topics"),
         ('parameters=[{"config_file": str(HERE / "bridge.yaml")}]', "arguments=['/clock@a/msg/B[gz.msgs.C']", ""),
+        (
+            'parameters=[{"config_file": str(HERE / "bridge.yaml")}]',
+            "arguments=[f'config_file:={HERE}/bridge.yaml']",
+            "config_file:=... is no parameter among the arguments",
+        ),
     ],
 )  # fmt: skip
 def test_a_mistake_is_named(old, new, words):
