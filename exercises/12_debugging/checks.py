@@ -143,6 +143,13 @@ def _of_a_remapping(recording, sends, takes):
                 return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
             if (old, new) == (other, used):
                 return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
+            if new == used and old != used and (not space or each["to"].startswith("/")):
+                return f"{place}: this remapping gives the topic the name {new}, and the other node uses {other}"
+            if new == used and not each["to"].startswith("/"):
+                return (
+                    f"{place}: the new name {each['to']!r} in the remapping has no slash at its beginning, so it means "
+                    f"{new}; the other node uses {other}"
+                )
     return ""
 
 
@@ -244,6 +251,8 @@ def _why_on_wall_time(recording, program):
         if place["elsewhere"]:
             said += f"; line {place['elsewhere']} gives it to {place['executable'] or 'another program'} instead"
     if np.any(recording.signal(f"topics/{signal}").values):  # by its own clock, every message is many years old
+        if hides := _suspects(recording, program, "any_age"):
+            return f"{said}, and what would have shown that is switched off: {hides}"
         return f"{said}, and its check of how old a {what} is, which noticed that, no longer drops any: put it back"
     return said if place is not None else ""
 

@@ -92,6 +92,9 @@ def test_the_commands(given, words):
         (("sensors", "/wall", "wall"), "here, they are exchanged"),
         (("", "sensors/wall", "/wall"), "here, they are exchanged"),
         (("", "other", "/wall"), "lives in the namespace /sensors"),
+        (("sensors", "/sensors/wall", "wall"), "the new name 'wall' in the remapping has no slash at its beginning"),
+        (("sensors", "wall", "wall"), "so it means /sensors/wall; the other node uses /wall"),
+        (("", "distance", "wall"), "this remapping gives the topic the name /wall, and the other node uses /sensors/"),
         (("sensors", "other", "another"), "lives in the namespace /sensors"),
     ],
 )
@@ -171,6 +174,15 @@ def test_a_ranger_on_the_wall_clock(distances, elsewhere, words):
     )
     finding = CHECKS["simulated_time"](recording, {})
     assert not finding.passed and words in finding.explanation, finding.explanation
+
+
+def test_a_ranger_on_the_wall_clock_that_takes_scans_of_any_age():
+    each = {"reliability": "RELIABLE", "durability": "VOLATILE", "type": "sensor_msgs/msg/Range", "topic": "/wall"}
+    place = {"file": "bringup.launch.py", "line": 38, "program": "ranger_node.py", "sim_time": False, "elsewhere": 0}
+    suspect = {"file": "ranger_node.py", "line": 9, "about": "any_age", "said": "the limit is too large"}
+    facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place], "suspects": [suspect]}
+    recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([1.0])))
+    assert "switched off: ranger_node.py, line 9: the limit" in CHECKS["simulated_time"](recording, {}).explanation
 
 
 def test_a_suspect_is_that_of_its_file():

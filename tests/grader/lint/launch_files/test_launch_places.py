@@ -238,6 +238,21 @@ def test_the_condition_of_a_group_is_that_of_its_simulator():
     assert launch_places(inside.encode())["simulators_made"][0]["condition"] == "c"
 
 
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [
+        ("class Watch:\n    pass\nrclpy.spin(Watch())\n", ["watch.py has ended, and it runs as long as the launch"]),
+        ("class Watch:\n    def done(self):\n        raise SystemExit\nrclpy.spin(Watch())\n", []),
+        ("print(1)\n", []),
+        ("def (", []),
+    ],
+)
+def test_an_event_after_the_end_of_a_node_that_spins(program, words):
+    waits = RIGHT.replace("target_action=create, on_exit=[bridge]", "target_action=watch, on_exit=[bridge]")
+    found = launch_places(waits.encode(), {"watch.py": program.encode()})["launch_slips"]
+    assert [word in each["said"] for word, each in zip(words, found, strict=True)] == [True] * len(words), found
+
+
 def test_a_name_stands_for_its_words():
     named = RIGHT.replace('"--ros-args", "-p", "use_sim_time:=true"', "TIME").replace(
         "HERE =", 'TIME = "--ros-args -p use_sim_time:=true"\nHERE ='
