@@ -143,9 +143,7 @@ def _of_a_remapping(recording, sends, takes):
                 return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
             if (old, new) == (other, used):
                 return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
-            if new == used and old != used and (not space or each["to"].startswith("/")):
-                return f"{place}: this remapping gives the topic the name {new}, and the other node uses {other}"
-            if new == used and not each["to"].startswith("/"):
+            if space and new == used and not each["to"].startswith("/"):
                 return (
                     f"{place}: the new name {each['to']!r} in the remapping has no slash at its beginning, so it means "
                     f"{new}; the other node uses {other}"

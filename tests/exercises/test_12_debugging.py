@@ -94,7 +94,6 @@ def test_the_commands(given, words):
         (("", "other", "/wall"), "lives in the namespace /sensors"),
         (("sensors", "/sensors/wall", "wall"), "the new name 'wall' in the remapping has no slash at its beginning"),
         (("sensors", "wall", "wall"), "so it means /sensors/wall; the other node uses /wall"),
-        (("", "distance", "wall"), "this remapping gives the topic the name /wall, and the other node uses /sensors/"),
         (("sensors", "other", "another"), "lives in the namespace /sensors"),
     ],
 )
