@@ -13,9 +13,11 @@ from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import complaint, deaths, declared, launch_facts, simulator_fault
 
 MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
+NAMES = runpy.run_path(str(Path(__file__).with_name("names.py")))
 
 SCAN, COMMANDS = "/scan", "/cmd_vel"
 LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+FRAMES = ("base_link", "lidar_link")  # parent and child
 MOUNT = (-0.2, 0.0, 0.19)  # [m] lidar_link in base_link, as in cart.sdf
 WARNING = re.compile(r"^\[[^\]]+\] \[WARN\] (?:\[[\d.]+\] )?\[(\w+)\]: (.*)")  # of a node, in the log of the launch
 
@@ -122,48 +124,11 @@ def same_topic(recording, parameters):
         return Finding(right, expected, "so it is" if right else f"nobody takes the distance on {min(sends)}")
     if not sends & takes:
         measured = f"the distance is published on {min(sends)} and taken from {min(takes)}"
-        why = _of_a_remapping(recording, min(sends), min(takes)) or _of_a_node(recording, min(sends), min(takes))
+        ends = _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE)
+        rules = recording.facts().get("remappings", [])
+        why = NAMES["of_a_remapping"](rules, ends, min(sends), min(takes)) or NAMES["of_a_node"](ends, sends | takes)
         return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"both use {min(sends & takes)}")
-
-
-def _of_a_remapping(recording, sends, takes):
-    """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
-    ends = _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE)
-    for each in recording.facts().get("remappings", []):
-        space = f"/{each['namespace']}" if each["namespace"] else ""
-        old, new = (name if name.startswith("/") else f"{space}/{name}" for name in (each["from"], each["to"]))
-        for end in ends:
-            used, other = end["topic"], {sends: takes, takes: sends}.get(end["topic"])
-            if other is None or end["node"].rpartition("/")[0] != space:
-                continue
-            place = f"{each['file']}, line {each['line']}"
-            if new == other and old != used:
-                means = "" if each["from"] == old else f", which means {old} in the namespace {space or '/'}"
-                return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
-            if (old, new) == (other, used):
-                return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
-            if space and new == used and not each["to"].startswith("/"):
-                return (
-                    f"{place}: the new name {each['to']!r} in the remapping has no slash at its beginning, so it means "
-                    f"{new}; the other node uses {other}"
-                )
-    return ""
-
-
-def _of_a_node(recording, *topics):
-    """Return why a topic has the name of a node, or of its namespace, in front."""
-    for end in _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE):
-        namespace = end["node"].rpartition("/")[0]
-        for topic in topics:
-            if topic.startswith(f"{end['node']}/"):
-                return f"{topic} begins with the name of the node {end['node']}, and the other side's name does not"
-            if end["topic"] == topic and namespace and topic.startswith(f"{namespace}/"):
-                return (
-                    f"{end['node']} lives in the namespace {namespace}, and a name without a slash at its beginning is "
-                    "put into it"
-                )
-    return ""
 
 
 def _died(recording, name):
@@ -174,7 +139,15 @@ def _died(recording, name):
 def lidar_frame(recording, parameters):
     x, y, z = MOUNT
     expected = f"lidar_link at x = {x}, y = {y}, z = {z} m in base_link"
-    for parent, child, sign in (("base_link", "lidar_link", 1), ("lidar_link", "base_link", -1)):
+    name = "topics/tf_static/{}/{}/translation/x"
+    ways = [recording.signal(name.format(*way)).values for way in (FRAMES, FRAMES[::-1])]
+    if all(map(len, ways)):
+        measured = (
+            "the transform is published both ways: from base_link to lidar_link, and from lidar_link to base_link"
+        )
+        why = "the transform with lidar_link as the parent is still there; a frame has one parent, and base_link is it"
+        return Finding(False, expected, measured, explanation=why)
+    for (parent, child), sign in ((FRAMES, 1), (FRAMES[::-1], -1)):
         place = [recording.signal(f"topics/tf_static/{parent}/{child}/translation/{axis}").values for axis in "xyz"]
         if not all(map(len, place)):
             continue
@@ -210,6 +183,14 @@ def all_alive(recording, parameters):
     if not _ends(recording, "publisher", topic=COMMANDS):
         others = [each for each in _ends(recording, "publisher") if "Twist" in each["type"].rpartition("/")[2]]
         if others:
+            space = others[0]["node"].rpartition("/")[0]
+            if space and others[0]["topic"] == f"{space}{COMMANDS}":
+                why = (
+                    f"{others[0]['node']} lives in the namespace {space}, and its name {COMMANDS[1:]} has no slash at "
+                    f"its beginning: it means {space}{COMMANDS}"
+                )
+                measured = f"the commands are published on {space}{COMMANDS}, not on {COMMANDS}"
+                return Finding(False, expected, measured, explanation=why)
             measured = f"{others[0]['node']} publishes its commands on {others[0]['topic']}, not on {COMMANDS}"
             why = f"the topic of the commands in ROS is {COMMANDS}; bridge.yaml joins it with that of Gazebo"
             return Finding(False, expected, measured, explanation=why)
@@ -243,6 +224,12 @@ def _why_on_wall_time(recording, program):
     what, signal = ("scan", "wall/range") if program == "ranger_node.py" else ("distance", "cmd_vel/linear/x")
     places = recording.facts().get("programs", [])
     place = next((each for each in places if each["program"] == program and not each["sim_time"]), None)
+    named = next((each for each in places if each["program"] == program and each.get("mentioned")), None)
+    if named is not None and place is None:
+        return (
+            f"{named['file']}, line {named['line']}: use_sim_time is mentioned in this action, but {program} does not "
+            "get the value True, or turns it off again"
+        )
     said = f"{program} is started without use_sim_time"
     if place is not None:
         said = f"{place['file']}, line {place['line']}: {said}"
@@ -324,7 +311,7 @@ def _why_still(recording):
     ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
     if not heard:
         why = "the ranger published no distance on /wall: it waits without end, or drops every scan"
-        if places := _suspects(recording, "ranger_node.py", "age", "hidden"):
+        if places := _suspects(recording, "ranger_node.py", "age", "young_age", "hidden"):
             why = f"{places}; the ranger published no distance on /wall"
         return f"{why}; it warned: {ranger}" if ranger else why
     if not commands:
@@ -344,22 +331,39 @@ def _why_there(recording, times, away, wanted):
     if said := MISCONCEPTIONS["of_a_distance"](measured.values, truth, MOUNT[0]):
         if "wrong sign" in said and (place := _suspects(recording, "ranger_node.py", "exchanged_frames")):
             return place
+        if "every distance is" in said and (place := _suspects(recording, "ranger_node.py", "first_kept")):
+            return f"{place} ({said})"
         return f"{said} (/wall, ranger_node.py)"
     if not len(command):
         return ""
     before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
-    said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
+    heard, speed = measured.values[before[known]], command.values[known]
+    kept = MISCONCEPTIONS["of_kept_distances"](command.times[known], heard, speed, wanted) if known.any() else ""
+    said = kept or MISCONCEPTIONS["of_a_driver"](heard, speed, wanted)
     if "stop_at says" in said and (missing := declared(recording, "stop_at", "1.0")):
         return missing
-    kinds = {"stop_at says": ("hidden",), "every command is zero": ("age", "hidden")}
+    kinds = {"is not renewed": ("first_kept",), "stop_at says": ("hidden", "first_kept")}
+    kinds |= {"every command is zero": ("age", "hidden", "young_age"), "however far": ("first_kept",)}
+    kinds |= {"distances are dropped": ("young_age",)}
     about = next((kinds[words] for words in kinds if words in said), ())
-    if place := _suspects(recording, "driver_node.py", *about):
-        return f"{place} ({said})"
+    for file in ("driver_node.py", "ranger_node.py")[: 1 + ("young_age" in about)]:
+        if place := _suspects(recording, file, *about):
+            return f"{place} ({said})"
     places = [each for each in recording.facts().get("before_speeds", []) if each["file"] == "driver_node.py"]
-    if places and said.endswith("never holds"):
-        said += ": " + "; ".join(f"line {each['line']}, `{each['code']}`" for each in places)
+    if "every command is zero" in said and (other := _another_axis(recording)):
+        return f"the driver sets {other} of the command, and a cart drives ahead by linear.x (/cmd_vel, driver_node.py)"
+    if places and said.startswith("every command is zero"):
+        said += "; the speed is set only where these hold: "
+        said += ", and ".join(f"`{each['code']}` in line {each['line']}" for each in places)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""
+
+
+def _another_axis(recording):
+    """Return which part of the commands is not zero, if linear.x always is; else nothing."""
+    parts = ("linear.y", "linear.z", "angular.z", "angular.x", "angular.y")
+    values = {part: recording.signal(f"topics/cmd_vel/{part.replace('.', '/')}").values for part in parts}
+    return next((part for part, each in values.items() if np.any(np.abs(each) > 0.01)), "")
 
 
 def _suspects(recording, file, *about):

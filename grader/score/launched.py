@@ -118,10 +118,18 @@ def deaths(recording: Recording) -> Iterator[Death]:
             if int(match.group(2)) > 0:
                 lines = output.get(match.group(1), [])
                 crash = read_crash(lines)
-                said = crash.error if crash else next(reversed(lines), "")
+                said = crash.error if crash else _last_words(lines)
                 yield Death(match.group(1).rpartition("-")[0], int(match.group(2)), said, crash)
         elif match := OUTPUT.match(line.text):
             output.setdefault(match.group(1), []).append(match.group(2))
+
+
+def _last_words(lines: list[str]) -> str:
+    """Return the last line of an output; the error before the usage of a command, if it ends with that."""
+    usage = next((number for number, line in enumerate(lines) if line.startswith("usage:")), 0)
+    if usage and "error" in lines[usage - 1].lower():
+        return lines[usage - 1]
+    return lines[-1] if lines else ""
 
 
 def not_started(recording: Recording, findings: Iterable[Finding] = ()) -> str:

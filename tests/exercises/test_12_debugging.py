@@ -85,6 +85,17 @@ def test_the_commands(given, words):
 
 
 @pytest.mark.parametrize(
+    ("driven", "ends_at", "found"),
+    [(0.55, 8.0, True), (3.0, 8.0, False), (0.55, 1.5, False), (0.0, 8.0, False)],
+)
+def test_a_distance_that_is_not_renewed(driven, ends_at, found):
+    times = np.arange(0.0, ends_at, 0.05)
+    distance, speed = np.full(len(times), 3.7), np.where(times < driven, 0.6, 0.0)
+    assert ("is not renewed" in NAMES["of_kept_distances"](times * 1e9, distance, speed, 1.0)) == found
+    assert NAMES["of_kept_distances"](times * 1e9, np.full(len(times), 1.0), speed, 1.0) == ""
+
+
+@pytest.mark.parametrize(
     ("remapping", "words"),
     [
         (("sensors", "sensors/wall", "/wall"), "'sensors/wall', which means /sensors/sensors/wall in the namespace"),
@@ -125,6 +136,12 @@ def test_a_driver_whose_commands_have_another_name():
     recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
     finding = CHECKS["all_alive"](recording, {})
     assert "/driver publishes its commands on /model/robot/cmd_vel" in finding.measured
+
+
+def test_a_driver_whose_commands_are_in_its_namespace():
+    end = {"kind": "publisher", "type": "geometry_msgs/msg/Twist", "topic": "/a/cmd_vel", "node": "/a/driver"}
+    recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
+    assert "lives in the namespace /a" in CHECKS["all_alive"](recording, {}).explanation
 
 
 BRIDGE = {
@@ -182,6 +199,18 @@ def test_a_ranger_on_the_wall_clock_that_takes_scans_of_any_age():
     facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place], "suspects": [suspect]}
     recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([1.0])))
     assert "switched off: ranger_node.py, line 9: the limit" in CHECKS["simulated_time"](recording, {}).explanation
+
+
+def test_a_ranger_that_does_not_get_the_simulated_time_of_its_action():
+    each = {"reliability": "RELIABLE", "durability": "VOLATILE", "type": "sensor_msgs/msg/Range", "topic": "/wall"}
+    place = {"file": "bringup.launch.py", "line": 38, "program": "ranger_node.py", "sim_time": True, "mentioned": True}
+    facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place]}
+    recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([])))
+    assert (
+        "line 38: use_sim_time is mentioned in this action, but" in CHECKS["simulated_time"](recording, {}).explanation
+    )
+    place["mentioned"] = False
+    assert CHECKS["simulated_time"](recording, {}).explanation == ""
 
 
 def test_a_suspect_is_that_of_its_file():

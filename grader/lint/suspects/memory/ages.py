@@ -1,6 +1,7 @@
 """Suspects in conditions on the age of a message.
 
-Some use the old messages and drop the fresh ones (`age`); others drop none, however old it is (`any_age`).
+Some use the old messages and drop the fresh ones (`age`); others drop none, however old it is (`any_age`), or nearly all
+(`young_age`).
 """
 
 from __future__ import annotations
@@ -8,13 +9,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.constants import named_numbers, number
+from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.syntax import Suspect, assigned, calls
 
 OLDER, YOUNGER = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 LEAVES = ast.Return | ast.Continue
 STEPS = 3  # names followed at most
 EVER = 1e6  # [s] a limit that no message of a program that runs now comes near, other than by another clock
+SOON = 0.15  # [s] a limit that the messages of a sensor with ten a second pass before the next one comes
 NANO = 1e9
 
 
@@ -48,7 +50,14 @@ def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
             asked = _older(test, values)
             if asked is None or not isinstance(test, ast.Compare):
                 continue
-            if limit := _limit(test, values, names):
+            limit, large = _limit(test, values, names)
+            if limit and not large:
+                said = (
+                    f"the limit {limit} in `{ast.unparse(node.test)[:60]}` is so small that nearly every message is "
+                    "too old"
+                )
+                yield test.lineno, "young_age", said
+            elif limit:
                 said = f"the limit {limit} in `{ast.unparse(node.test)[:60]}` is so large that no message is too old"
                 yield test.lineno, "any_age", said
             elif asked == holds and not node.orelse and _says(node.body):
@@ -61,16 +70,17 @@ def _says(body: list[ast.stmt]) -> bool:
     return all(isinstance(each, ast.Pass | ast.Expr) for each in body)
 
 
-def _limit(test: ast.Compare, values: dict[str, list[ast.expr]], names: dict[str, int | float]) -> str:
-    """Return the limit of an age as it is written, if it is years long; empty if it is not, or is not known."""
+def _limit(test: ast.Compare, values: dict[str, list[ast.expr]], names: dict[str, Number]) -> tuple[str, bool]:
+    """Return the limit of an age as it is written, and whether it is large; empty if it may be right, or is unknown."""
     other = test.comparators[0] if _is_age(test.left, values, STEPS) else test.left
     whole = 1.0 if _in_seconds(test, values, STEPS) else NANO
     given = values.get(ast.unparse(other), [other])
     known = number(other, names)
-    if (known is not None and abs(known) >= EVER * whole) or (len(given) == 1 and _endless(given[0])):
-        shown = f"{number(given[0], {}):g}" if _is_number(given[0]) else ast.unparse(given[0])
-        return shown if shown == ast.unparse(other) else f"{ast.unparse(other)} = {shown}"
-    return ""
+    large = (known is not None and abs(known) >= EVER * whole) or (len(given) == 1 and _endless(given[0]))
+    if not large and (known is None or not 0 < known < SOON * whole):
+        return "", False
+    shown = f"{number(given[0], {}):g}" if _is_number(given[0]) else ast.unparse(given[0])
+    return (shown if shown == ast.unparse(other) else f"{ast.unparse(other)} = {shown}"), large
 
 
 def _is_number(node: ast.expr) -> bool:

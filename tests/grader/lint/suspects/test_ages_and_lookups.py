@@ -96,3 +96,9 @@ def test_a_limit_in_nanoseconds_is_none():
 def test_an_old_message_that_is_only_reported(old, new, found):
     words = said(NODE.replace(old, new), "any_age")
     assert bool(words) == found and all("only reports an old message" in each for each in words)
+
+
+@pytest.mark.parametrize(("limit", "found"), [("0.02", True), ("0.1", True), ("0.2", False), ("0", False)])
+def test_a_limit_that_nearly_every_age_passes(limit, found):
+    words = said(f"OLDEST = {limit}\n{NODE}", "young_age")
+    assert bool(words) == found and all(f"the limit OLDEST = {limit} in" in each for each in words)
