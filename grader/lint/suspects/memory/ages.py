@@ -1,7 +1,7 @@
 """Suspects in conditions on the age of a message.
 
-Some use the old messages and drop the fresh ones (`age`); others drop none, however old it is (`any_age`), or nearly all
-(`young_age`).
+Some use the old messages and drop the fresh ones (`age`); others drop none, however old it is (`any_age`), or nearly
+all (`young_age`).
 """
 
 from __future__ import annotations
