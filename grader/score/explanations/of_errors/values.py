@@ -66,7 +66,7 @@ MEANINGS = (
     ),
     (
         re.compile(r"InvalidQoSProfileException"),
-        "the depth is given by its name: QoSProfile(depth=10)",
+        "a QoSProfile needs a depth, and the depth is given by its name: QoSProfile(depth=10)",
     ),
     (
         re.compile(r"TypeError: Expected <class '[\w.]+\.(\w+)'>, got <class '[\w.]+\._\w+\.(?!Metaclass_)(\w+)'>"),

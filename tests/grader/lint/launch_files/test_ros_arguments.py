@@ -54,7 +54,7 @@ def test_a_parameter_that_the_program_does_not_declare():
     ],
 )
 def test_a_value_that_is_a_word_of_its_own(words, found):
-    launch = f'node = ExecuteProcess(cmd=["python3", "a.py", "--ros-args", {words}])\n'
+    launch = f'LaunchDescription([ExecuteProcess(cmd=["python3", "a.py", "--ros-args", {words}])])\n'
     slips = launch_places(launch.encode())["launch_slips"]
     assert any("'gap:=' and its value are two words" in each["said"] for each in slips) == found
 
@@ -69,6 +69,6 @@ def test_a_value_that_is_a_word_of_its_own(words, found):
     ],
 )
 def test_a_dict_with_the_levels_of_a_parameter_file(parameters, found):
-    launch = f'node = Node(package="a", executable="b", parameters={parameters})\n'
+    launch = f'LaunchDescription([Node(package="a", executable="b", parameters={parameters})])\n'
     slips = launch_places(launch.encode())["launch_slips"]
     assert any("belong into a parameter file" in each["said"] for each in slips) == found
