@@ -89,6 +89,11 @@ def scans_are_heard(recording, parameters):
     if not offers or offers[0].gz_topic != "/lidar/scan" or offers[0].direction != "GZ_TO_ROS":
         measured = "the bridge does not carry /lidar/scan to /scan, one way"
         for each in bridges(recording):
+            if (each.ros_topic, each.gz_topic) == (SCAN, "/lidar/scan") and each.direction != "GZ_TO_ROS":
+                goes = (
+                    "goes both ways" if each.direction == "BIDIRECTIONAL" else f"goes the wrong way, {each.direction}"
+                )
+                return Finding(False, expected, f"{each.place}: /scan {goes}; scans come from Gazebo: GZ_TO_ROS")
             if "/lidar/scan" in (each.gz_topic, each.ros_topic) or SCAN in (each.gz_topic, each.ros_topic):
                 measured += (
                     f": {each.place}: /{each.ros_topic.lstrip('/')} in ROS, {each.gz_topic} in Gazebo, {each.direction}"
@@ -97,9 +102,11 @@ def scans_are_heard(recording, parameters):
         return Finding(False, expected, measured)
     takes = _ends(recording, "subscription", LASER_SCAN, SCAN)
     if not takes:
-        others = {each["topic"] for each in _ends(recording, "subscription", LASER_SCAN)}
+        ends = _ends(recording, "subscription", LASER_SCAN)
+        others = {each["topic"] for each in ends}
         where = f"; scans are taken from {min(others)}" if others else ""
-        return Finding(False, expected, f"no node subscribes to /scan{where}", gated=_died(recording, "ranger"))
+        dead, why = _died(recording, "ranger"), NAMES["of_a_node"](ends, others)
+        return Finding(False, expected, f"no node subscribes to /scan{where}", explanation=why, gated=dead)
     offer = offers[0].publisher_qos
     for end in takes:
         for policy, strong in (("durability", "TRANSIENT_LOCAL"), ("reliability", "RELIABLE")):

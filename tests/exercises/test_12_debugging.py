@@ -168,6 +168,15 @@ def test_names_of_the_commands_that_are_exchanged(gz_topic, words):
 
 
 @pytest.mark.parametrize(
+    ("direction", "words"), [("BIDIRECTIONAL", "/scan goes both ways"), ("ROS_TO_GZ", "/scan goes the wrong way")]
+)
+def test_scans_that_go_the_wrong_way(direction, words):
+    wrong = BRIDGE | {"ros_topic": "/scan", "gz_topic": "/lidar/scan", "direction": direction}
+    finding = CHECKS["scans_are_heard"](SimpleNamespace(facts=lambda: {"bridges": [wrong]}), {})
+    assert not finding.passed and words in finding.measured
+
+
+@pytest.mark.parametrize(
     ("distances", "elsewhere", "words"),
     [
         ([1.0], 0, "line 38: ranger_node.py is started without use_sim_time, and its check of how old a scan is"),

@@ -31,6 +31,7 @@ ERRORS = (
     "AttributeError: 'Time' object has no attribute 'to_sec'",
     "AttributeError: 'Timer' object has no attribute 'executor'",
     "AttributeError: 'float' object has no attribute 'sec'",
+    "AttributeError: 'str' object has no attribute 'sec'",
     "AttributeError: 'float' object has no attribute 'x'",
     "AttributeError: 'list' object has no attribute 'x'",
     "AttributeError: 'method' object has no attribute 'info'",

@@ -208,6 +208,17 @@ def test_what_is_no_python_has_no_places():
     assert launch_places(b"def (") == {}
 
 
+def test_remappings_among_the_words_of_a_command_are_listed():
+    text = (
+        "Node(namespace='arm', arguments=['a.py', '--ros-args', '-r', 'wall:=/wall', '-r', '__node:=a'])\n"
+        "ExecuteProcess(cmd=['python3', 'b.py', '--ros-args', '-r', '__ns:=/leg', '--remap', 'a:=b', '-r', NAME])\n"
+    )
+    assert launch_places(text.encode())["remappings"] == [
+        {"line": 1, "namespace": "arm", "from": "wall", "to": "/wall"},
+        {"line": 2, "namespace": "leg", "from": "a", "to": "b"},
+    ]
+
+
 def test_remappings_are_listed_with_the_namespace_of_their_node():
     text = (
         "Node(\n    namespace='/arm', remappings=[('wall', '/wall'), (NAME, 'x')])\nNAME = 'out'\nNode(remappings=3)\n"
