@@ -67,6 +67,21 @@ def nested_parameters(file: LaunchFile) -> Iterator[Place]:
                     )
 
 
+def quoted_truths(file: LaunchFile) -> Iterator[Place]:
+    """Find `{"use_sim_time": "True"}` in the parameters of a node: it takes True, and no text."""
+    for call in file.calls("Node", "LifecycleNode"):
+        given = argument(call, "parameters")
+        for part in file.parts(given) if given is not None else ():
+            for table in (each for each in ast.walk(part) if isinstance(each, ast.Dict)):
+                for key, value in zip(table.keys, table.values, strict=True):
+                    if key is not None and text(key) == "use_sim_time" and text(value):
+                        yield (
+                            value.lineno,
+                            f"use_sim_time is given as the text {text(value)!r}, and takes True or False, without "
+                            "quotes",
+                        )
+
+
 def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` for a program of the submission that declares parameters of other names only."""
     owners = _functions_of(file)
@@ -132,4 +147,4 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
 
 
-LOOKS = (without_ros_args, values_apart, nested_parameters)
+LOOKS = (without_ros_args, values_apart, nested_parameters, quoted_truths)

@@ -72,3 +72,10 @@ def test_a_dict_with_the_levels_of_a_parameter_file(parameters, found):
     launch = f'LaunchDescription([Node(package="a", executable="b", parameters={parameters})])\n'
     slips = launch_places(launch.encode())["launch_slips"]
     assert any("belong into a parameter file" in each["said"] for each in slips) == found
+
+
+@pytest.mark.parametrize(("value", "found"), [('"True"', True), ('"yes"', True), ("True", False), ("TIME", False)])
+def test_a_truth_in_quotes(value, found):
+    launch = f'LaunchDescription([Node(executable="b", parameters=[{{"use_sim_time": {value}}}])])\n'
+    slips = launch_places(launch.encode())["launch_slips"]
+    assert any("and takes True or False, without quotes" in each["said"] for each in slips) == found
