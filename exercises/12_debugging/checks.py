@@ -322,10 +322,11 @@ def _why_still(recording):
             why = f"{places}; the ranger published no distance on /wall"
         return f"{why}; it warned: {ranger}" if ranger else why
     if not commands:
-        return (
-            f"the driver got {heard} distances and published no command: one of its callbacks hangs, and waits for "
-            "what only another callback of the node could bring"
-        )
+        said = f"the driver got {heard} distances and published no command"
+        loops = [each for each in recording.facts().get("slips", []) if "in the callback" in each["said"]]
+        if any(each.get("file") == "driver_node.py" for each in loops):
+            said += ": one of its callbacks hangs, and waits for what only another callback of the node could bring"
+        return said
     return ""
 
 

@@ -233,3 +233,17 @@ def test_a_suspect_is_that_of_its_file():
 def test_a_simulator_that_ends_by_itself_has_run():
     recording = SimpleNamespace(facts=lambda: {"launch": {"simulators": [{"ran": False}]}}, ended_s=4.0)
     assert "ended by itself after 4.0 s" in CHECKS["time_runs"](recording, {}).measured
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [("the loop in the callback drive keeps the executor", "one of its callbacks hangs"), ("another slip", "")],
+)
+def test_a_driver_that_publishes_nothing(said, words):
+    facts = {"slips": [{"file": "driver_node.py", "line": 3, "said": said}]}
+    numbers = {"topics/wall/range": [1.0] * 8, "topics/cmd_vel/count": []}
+    recording = SimpleNamespace(facts=lambda: facts, signal=numbers.get, lines=lambda entity: [])
+    found = CHECKS["_why_still"](recording)
+    assert found.startswith("the driver got 8 distances and published no command") and (words in found) == (
+        "hangs" in found
+    )
