@@ -317,7 +317,11 @@ def _why_still(recording):
     said = [match for line in recording.lines("log/student") if (match := WARNING.match(line.text))]
     ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
     if not heard:
-        why = "the ranger published no distance on /wall: it waits without end, or drops every scan"
+        why = "the ranger published no distance on /wall"
+        held = [e for e in recording.facts().get("conditions", []) if e["file"] == "ranger_node.py"]
+        if held:
+            code = ", ".join(f"`{each['code']}` in line {each['line']}" for each in held)
+            why += f"; before its publish() stand {code} (ranger_node.py)"
         if places := _suspects(recording, "ranger_node.py", "age", "young_age", "hidden"):
             why = f"{places}; the ranger published no distance on /wall"
         return f"{why}; it warned: {ranger}" if ranger else why

@@ -179,6 +179,12 @@ def simulator_fault(said: str, recording: Recording) -> str:
         return f"'{given}' is a text; the value of the argument is LaunchConfiguration('{given}')"
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
     asked = str(trial.get("parameters", {}).get("world", ""))
+    beside = {place["name"] for place in recording.facts().get("worlds_beside", [])}
+    if given in beside:
+        return (
+            f"{name} is looked for in the folder in which ros2 launch was called, and it lies beside the launch file: "
+            "Path(__file__).parent is that folder, and PathJoinSubstitution joins it with an argument"
+        )
     if folder and (name == asked or f" {name}" in said or not asked):
         return (
             f"{name} is looked for in the folder {folder}, and it is not there: the worlds of the course are built in, "

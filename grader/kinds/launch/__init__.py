@@ -14,12 +14,14 @@ from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
 from gz_course.grader.lint.launch_files import launch_places
-from gz_course.grader.lint.origins import before_speeds
+from gz_course.grader.lint.origins import before_speeds, conditions
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from gz_course.grader.exercise import Exercise
     from gz_course.grader.exercise.trial import Trial
     from gz_course.grader.run.run_loop import RunLoop
@@ -41,7 +43,13 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     own = (*exercise.parts, MANIFEST)
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
     files = submission.files | {path.name: path.read_bytes() for path in beside}
-    return RunPlan(submission.main, files, facts=_places(submission, exercise.duration))
+    return RunPlan(submission.main, files, facts=_places(submission, exercise.duration) | _worlds(files))
+
+
+def _worlds(files: Mapping[str, bytes]) -> dict[str, list[dict[str, Any]]]:
+    """Return the world files beside the launch file, as facts; none if there are none."""
+    names = sorted(name for name in files if name.endswith((".sdf", ".world")))
+    return {"worlds_beside": [{"name": shown(name)} for name in names]} if names else {}
 
 
 def _places(submission: Submission, duration: float) -> dict[str, list[dict[str, Any]]]:
@@ -56,6 +64,7 @@ def _places(submission: Submission, duration: float) -> dict[str, list[dict[str,
                     "slips": slips(content, duration),
                     "suspects": suspects(content),
                     "before_speeds": before_speeds(content),
+                    "conditions": conditions(content),
                 }
             )
             for kind, each in places.items():

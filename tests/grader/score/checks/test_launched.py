@@ -333,6 +333,13 @@ def test_the_command_without_simulated_time_is_named(record, changes, words):
     assert kind(record(facts=facts), Table(PARAMETERS["node"], "check 'it'", "parameter")).explanation == words
 
 
+def test_a_world_that_lies_beside_the_launch_file(record):
+    said = "world file '{}' was not found as a path"
+    recording = record(facts={"worlds_beside": [{"name": "depot.sdf"}]})
+    assert "it lies beside the launch file" in simulator_fault(said.format("depot.sdf"), recording)
+    assert simulator_fault(said.format("empty.sdf"), recording) == ""
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
