@@ -28,6 +28,11 @@ def of_a_mount(seen, mount, sign):
             "the transform is inverted: its numbers are the place of base_link, seen from lidar_link; with base_link "
             f"as the parent, they are that of lidar_link: x = {mount[0]:g}, z = {mount[2]:g}"
         )
+    if sign < 0:
+        return (
+            "parent and child are swapped: lidar_link is the parent here, and its numbers do not fit that either; with "
+            f"base_link as the parent, they are x = {mount[0]:g}, z = {mount[2]:g}"
+        )
     for factor, unit in ((1000, "millimetres"), (100, "centimetres")):
         if math.dist([each / factor for each in seen], mount) < 0.005:
             return f"the transform is given in {unit}; tf2 takes metres"

@@ -16,6 +16,8 @@ def of_a_remapping(rules, ends, sends, takes):
                 return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
             if (old, new) == (other, used):
                 return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
+            if old == new == used and each["to"].startswith("/"):
+                return f"{place}: this remapping changes nothing, because {each['from']!r} already means {new} here"
             if space and new == used and not each["to"].startswith("/"):
                 return (
                     f"{place}: the new name {each['to']!r} in the remapping has no slash at its beginning, so it means "
