@@ -17,6 +17,7 @@ NAMES = runpy.run_path(str(Path(__file__).with_name("names.py")))
 
 SCAN, COMMANDS = "/scan", "/cmd_vel"
 LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+WORLDS = ("bay.sdf", "depot.sdf")  # beside the launch file
 FRAMES = ("base_link", "lidar_link")  # parent and child
 MOUNT = (-0.2, 0.0, 0.19)  # [m] lidar_link in base_link, as in cart.sdf
 WARNING = re.compile(r"^\[[^\]]+\] \[WARN\] (?:\[[\d.]+\] )?\[(\w+)\]: (.*)")  # of a node, in the log of the launch
@@ -36,7 +37,13 @@ def time_runs(recording, parameters):
         errors = [each["error"] for each in launch_facts(recording).get("simulators", []) if each["error"]]
         said = errors[0] if errors else complaint(recording, "gz sim")
         measured = f"no simulator ran{f'; gz sim said: {said}' if said else ''}"
-        return Finding(False, expected, measured, explanation=simulator_fault(said, recording))
+        why = simulator_fault(said, recording)
+        if any(f"world file '{world}' was not found" in said for world in WORLDS):
+            why = (
+                "the world is looked for in the folder in which ros2 launch was called, and it lies beside the launch "
+                "file: PathJoinSubstitution([str(HERE), LaunchConfiguration('world')])"
+            )
+        return Finding(False, expected, measured, explanation=why)
     if ran[0]["paused"]:
         return Finding(False, expected, "the world was started paused: gz sim had no -r")
     return Finding(recording.ended_s > 0, expected, f"{recording.ended_s:.1f} s were simulated")

@@ -66,10 +66,14 @@ def of_a_distance(measured, truth, mount):
     if np.ptp(measured) < CLOSE < np.ptp(truth):
         return f"every distance is {measured[-1]:.2f} m, however far the wall is"
     error = measured - truth
+    usual = float(np.median(error))
+    same = np.mean(np.abs(error - usual) < CLOSE) >= SHARE
+    if same and np.ptp(truth) > 4 * CLOSE and abs(usual) > 2 * CLOSE:
+        return f"every distance is {abs(usual):.2f} m too {'small' if usual < 0 else 'large'}, near the wall and far"
     if np.mean(error < -CLOSE) >= SHARE:
         return (
-            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away: something "
-            "nearer than the wall, or not ahead, is taken for it"
+            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away; nothing stands "
+            "ahead that is nearer than the wall"
         )
     if np.mean(error > CLOSE) >= SHARE:
         return f"the distance is too large, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away"

@@ -179,11 +179,11 @@ def simulator_fault(said: str, recording: Recording) -> str:
         return f"'{given}' is a text; the value of the argument is LaunchConfiguration('{given}')"
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
     asked = str(trial.get("parameters", {}).get("world", ""))
-    beside = {place["name"] for place in recording.facts().get("worlds_beside", [])}
-    if given in beside:
+    defaults = {place.get("default", "") for place in recording.facts().get("declared", []) if place["name"] == "world"}
+    if not folder and given in {place for place in defaults if "/" not in place}:
         return (
-            f"{name} is looked for in the folder in which ros2 launch was called, and it lies beside the launch file: "
-            "Path(__file__).parent is that folder, and PathJoinSubstitution joins it with an argument"
+            f"{name} has no folder, so it is looked for in the folder in which ros2 launch was called, and among the "
+            f"built-in worlds; one beside the launch file is str(Path(__file__).parent / '{name}')"
         )
     if folder and (name == asked or f" {name}" in said or not asked):
         return (

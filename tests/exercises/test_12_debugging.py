@@ -51,6 +51,8 @@ def test_the_place_of_the_lidar(seen, sign, words):
         (np.full(40, 0.8), "every distance is 0.80 m"),
         (TRUTH * 0.5, "nearer than the wall"),
         (TRUTH * 1.5, "too large"),
+        (TRUTH - 1.0, "every distance is 1.00 m too small, near the wall and far"),
+        (TRUTH + 0.5, "every distance is 0.50 m too large"),
         (TRUTH[:3] * 9, ""),
     ],
 )
@@ -257,3 +259,10 @@ def test_a_ranger_that_publishes_nothing():
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: []
     )
     assert "before its publish() stand `if ahead:` in line 9" in CHECKS["_why_still"](recording)
+
+
+def test_a_world_without_the_folder_of_the_launch_file():
+    error = "world file 'depot.sdf' was not found as a path"
+    facts = {"launch": {"simulators": [{"ran": False, "error": error}]}}
+    finding = CHECKS["time_runs"](SimpleNamespace(facts=lambda: facts, ended_s=0.0, properties=lambda name: {}), {})
+    assert "it lies beside the launch file" in finding.explanation

@@ -20,8 +20,6 @@ from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from gz_course.grader.exercise import Exercise
     from gz_course.grader.exercise.trial import Trial
     from gz_course.grader.run.run_loop import RunLoop
@@ -29,6 +27,7 @@ if TYPE_CHECKING:
     from gz_course.grader.submission import Submission
 
 
+LOST = ("is given twice", "a second document begins here", "is not a Gazebo topic name")
 MANIFEST = "exercise.toml"
 _MARKUP = (".xml", ".yaml", ".yml")
 
@@ -43,13 +42,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     own = (*exercise.parts, MANIFEST)
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
     files = submission.files | {path.name: path.read_bytes() for path in beside}
-    return RunPlan(submission.main, files, facts=_places(submission, exercise.duration) | _worlds(files))
-
-
-def _worlds(files: Mapping[str, bytes]) -> dict[str, list[dict[str, Any]]]:
-    """Return the world files beside the launch file, as facts; none if there are none."""
-    names = sorted(name for name in files if name.endswith((".sdf", ".world")))
-    return {"worlds_beside": [{"name": shown(name)} for name in names]} if names else {}
+    return RunPlan(submission.main, files, facts=_places(submission, exercise.duration))
 
 
 def _places(submission: Submission, duration: float) -> dict[str, list[dict[str, Any]]]:
@@ -77,8 +70,8 @@ def _places(submission: Submission, duration: float) -> dict[str, list[dict[str,
 
 
 def _twice(name: str, content: bytes) -> list[dict[str, Any]]:
-    """Return `line` and `said` of the first key that stands twice in one entry of a bridge's file."""
-    found = [each for each in read(name, content).findings if "is given twice" in each.sentence][:1]
+    """Return `line` and `said` of the first thing that a bridge's file loses: a key that stands twice, a document."""
+    found = [each for each in read(name, content).findings if any(words in each.sentence for words in LOST)][:1]
     return [{"line": int(each.place.rpartition(":")[2]), "said": shown(each.sentence)} for each in found]
 
 

@@ -110,6 +110,17 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+def into_itself(tree: ast.AST) -> Iterator[Place]:
+    """Find a lookup whose two frames are the same expression."""
+    for call, _ in _lookups(tree):
+        if len(call.args) >= 2 and ast.unparse(call.args[0]) == ast.unparse(call.args[1]):
+            yield (
+                call.lineno,
+                f"both frames of this lookup are {ast.unparse(call.args[0])[:40]}, so its transform changes nothing: "
+                "the first is the frame in which the result is wanted, the second that of the data",
+            )
+
+
 def _is_now(node: ast.expr) -> bool:
     text = ast.unparse(node)
     return text.endswith((".now()", ".now().to_msg()"))
@@ -227,4 +238,4 @@ def _shared(tree: ast.Module) -> Iterator[int]:
         )
 
 
-LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment)
+LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment, into_itself)
