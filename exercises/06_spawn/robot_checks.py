@@ -40,7 +40,19 @@ def taken_as_it_is(recording, parameters):
     if not warnings:
         return Finding(True, expected, "there was none")
     more = f", and {len(warnings) - 1} more" if len(warnings) > 1 else ""
-    return Finding(False, expected, f"gz sim says: {shown(warnings[0], 300)}{more}")
+    why = _in_the_ground(robot) if "ground_plane::" in warnings[0] and "inside each other" in warnings[0] else ""
+    return Finding(False, expected, f"gz sim says: {shown(warnings[0], 300)}{more}", explanation=why)
+
+
+def _in_the_ground(robot):
+    """Return which part of a robot that came in the ground is the lowest, and how high -z must lift it."""
+    low = robot.lowest_link() if robot is not None else None
+    if low is None or low.lowest >= 0:
+        return ""
+    return (
+        f"it starts inside the ground: its lowest part, {low.lowest_part}, is {-low.lowest:.2f} m below its origin, so "
+        "-z of create must be that or more, or the origin must lie lower in the robot"
+    )
 
 
 def described(recording, parameters):

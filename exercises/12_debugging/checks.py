@@ -13,9 +13,12 @@ from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import complaint, deaths, declared, launch_facts, simulator_fault
 
 MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
+NAMES = runpy.run_path(str(Path(__file__).with_name("names.py")))
 
 SCAN, COMMANDS = "/scan", "/cmd_vel"
 LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+WORLDS = ("bay.sdf", "depot.sdf")  # beside the launch file
+FRAMES = ("base_link", "lidar_link")  # parent and child
 MOUNT = (-0.2, 0.0, 0.19)  # [m] lidar_link in base_link, as in cart.sdf
 WARNING = re.compile(r"^\[[^\]]+\] \[WARN\] (?:\[[\d.]+\] )?\[(\w+)\]: (.*)")  # of a node, in the log of the launch
 
@@ -34,7 +37,13 @@ def time_runs(recording, parameters):
         errors = [each["error"] for each in launch_facts(recording).get("simulators", []) if each["error"]]
         said = errors[0] if errors else complaint(recording, "gz sim")
         measured = f"no simulator ran{f'; gz sim said: {said}' if said else ''}"
-        return Finding(False, expected, measured, explanation=simulator_fault(said, recording))
+        why = simulator_fault(said, recording)
+        if any(f"world file '{world}' was not found" in said for world in WORLDS):
+            why = (
+                "the world is looked for in the folder in which ros2 launch was called, and it lies beside the launch "
+                "file: PathJoinSubstitution([str(HERE), LaunchConfiguration('world')])"
+            )
+        return Finding(False, expected, measured, explanation=why)
     if ran[0]["paused"]:
         return Finding(False, expected, "the world was started paused: gz sim had no -r")
     return Finding(recording.ended_s > 0, expected, f"{recording.ended_s:.1f} s were simulated")
@@ -87,6 +96,11 @@ def scans_are_heard(recording, parameters):
     if not offers or offers[0].gz_topic != "/lidar/scan" or offers[0].direction != "GZ_TO_ROS":
         measured = "the bridge does not carry /lidar/scan to /scan, one way"
         for each in bridges(recording):
+            if (each.ros_topic, each.gz_topic) == (SCAN, "/lidar/scan") and each.direction != "GZ_TO_ROS":
+                goes = (
+                    "goes both ways" if each.direction == "BIDIRECTIONAL" else f"goes the wrong way, {each.direction}"
+                )
+                return Finding(False, expected, f"{each.place}: /scan {goes}; scans come from Gazebo: GZ_TO_ROS")
             if "/lidar/scan" in (each.gz_topic, each.ros_topic) or SCAN in (each.gz_topic, each.ros_topic):
                 measured += (
                     f": {each.place}: /{each.ros_topic.lstrip('/')} in ROS, {each.gz_topic} in Gazebo, {each.direction}"
@@ -95,9 +109,11 @@ def scans_are_heard(recording, parameters):
         return Finding(False, expected, measured)
     takes = _ends(recording, "subscription", LASER_SCAN, SCAN)
     if not takes:
-        others = {each["topic"] for each in _ends(recording, "subscription", LASER_SCAN)}
+        ends = _ends(recording, "subscription", LASER_SCAN)
+        others = {each["topic"] for each in ends}
         where = f"; scans are taken from {min(others)}" if others else ""
-        return Finding(False, expected, f"no node subscribes to /scan{where}", gated=_died(recording, "ranger"))
+        dead, why = _died(recording, "ranger"), NAMES["of_a_node"](ends, others)
+        return Finding(False, expected, f"no node subscribes to /scan{where}", explanation=why, gated=dead)
     offer = offers[0].publisher_qos
     for end in takes:
         for policy, strong in (("durability", "TRANSIENT_LOCAL"), ("reliability", "RELIABLE")):
@@ -122,43 +138,11 @@ def same_topic(recording, parameters):
         return Finding(right, expected, "so it is" if right else f"nobody takes the distance on {min(sends)}")
     if not sends & takes:
         measured = f"the distance is published on {min(sends)} and taken from {min(takes)}"
-        why = _of_a_remapping(recording, min(sends), min(takes)) or _of_a_node(recording, min(sends), min(takes))
+        ends = _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE)
+        rules = recording.facts().get("remappings", [])
+        why = NAMES["of_a_remapping"](rules, ends, min(sends), min(takes)) or NAMES["of_a_node"](ends, sends | takes)
         return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"both use {min(sends & takes)}")
-
-
-def _of_a_remapping(recording, sends, takes):
-    """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
-    ends = _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE)
-    for each in recording.facts().get("remappings", []):
-        space = f"/{each['namespace']}" if each["namespace"] else ""
-        old, new = (name if name.startswith("/") else f"{space}/{name}" for name in (each["from"], each["to"]))
-        for end in ends:
-            used, other = end["topic"], {sends: takes, takes: sends}.get(end["topic"])
-            if other is None or end["node"].rpartition("/")[0] != space:
-                continue
-            place = f"{each['file']}, line {each['line']}"
-            if new == other and old != used:
-                means = "" if each["from"] == old else f", which means {old} in the namespace {space or '/'}"
-                return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
-            if (old, new) == (other, used):
-                return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
-    return ""
-
-
-def _of_a_node(recording, *topics):
-    """Return why a topic has the name of a node, or of its namespace, in front."""
-    for end in _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE):
-        namespace = end["node"].rpartition("/")[0]
-        for topic in topics:
-            if topic.startswith(f"{end['node']}/"):
-                return f"{topic} begins with the name of the node {end['node']}, and the other side's name does not"
-            if end["topic"] == topic and namespace and topic.startswith(f"{namespace}/"):
-                return (
-                    f"{end['node']} lives in the namespace {namespace}, and a name without a slash at its beginning is "
-                    "put into it"
-                )
-    return ""
 
 
 def _died(recording, name):
@@ -169,7 +153,15 @@ def _died(recording, name):
 def lidar_frame(recording, parameters):
     x, y, z = MOUNT
     expected = f"lidar_link at x = {x}, y = {y}, z = {z} m in base_link"
-    for parent, child, sign in (("base_link", "lidar_link", 1), ("lidar_link", "base_link", -1)):
+    name = "topics/tf_static/{}/{}/translation/x"
+    ways = [recording.signal(name.format(*way)).values for way in (FRAMES, FRAMES[::-1])]
+    if all(map(len, ways)):
+        measured = (
+            "the transform is published both ways: from base_link to lidar_link, and from lidar_link to base_link"
+        )
+        why = "the transform with lidar_link as the parent is still there; a frame has one parent, and base_link is it"
+        return Finding(False, expected, measured, explanation=why)
+    for (parent, child), sign in ((FRAMES, 1), (FRAMES[::-1], -1)):
         place = [recording.signal(f"topics/tf_static/{parent}/{child}/translation/{axis}").values for axis in "xyz"]
         if not all(map(len, place)):
             continue
@@ -205,6 +197,14 @@ def all_alive(recording, parameters):
     if not _ends(recording, "publisher", topic=COMMANDS):
         others = [each for each in _ends(recording, "publisher") if "Twist" in each["type"].rpartition("/")[2]]
         if others:
+            space = others[0]["node"].rpartition("/")[0]
+            if space and others[0]["topic"] == f"{space}{COMMANDS}":
+                why = (
+                    f"{others[0]['node']} lives in the namespace {space}, and its name {COMMANDS[1:]} has no slash at "
+                    f"its beginning: it means {space}{COMMANDS}"
+                )
+                measured = f"the commands are published on {space}{COMMANDS}, not on {COMMANDS}"
+                return Finding(False, expected, measured, explanation=why)
             measured = f"{others[0]['node']} publishes its commands on {others[0]['topic']}, not on {COMMANDS}"
             why = f"the topic of the commands in ROS is {COMMANDS}; bridge.yaml joins it with that of Gazebo"
             return Finding(False, expected, measured, explanation=why)
@@ -238,12 +238,20 @@ def _why_on_wall_time(recording, program):
     what, signal = ("scan", "wall/range") if program == "ranger_node.py" else ("distance", "cmd_vel/linear/x")
     places = recording.facts().get("programs", [])
     place = next((each for each in places if each["program"] == program and not each["sim_time"]), None)
+    named = next((each for each in places if each["program"] == program and each.get("mentioned")), None)
+    if named is not None and place is None:
+        return (
+            f"{named['file']}, line {named['line']}: use_sim_time is mentioned in this action, but {program} does not "
+            "get the value True, or turns it off again"
+        )
     said = f"{program} is started without use_sim_time"
     if place is not None:
         said = f"{place['file']}, line {place['line']}: {said}"
         if place["elsewhere"]:
             said += f"; line {place['elsewhere']} gives it to {place['executable'] or 'another program'} instead"
     if np.any(recording.signal(f"topics/{signal}").values):  # by its own clock, every message is many years old
+        if hides := _suspects(recording, program, "any_age"):
+            return f"{said}, and what would have shown that is switched off: {hides}"
         return f"{said}, and its check of how old a {what} is, which noticed that, no longer drops any: put it back"
     return said if place is not None else ""
 
@@ -316,15 +324,20 @@ def _why_still(recording):
     said = [match for line in recording.lines("log/student") if (match := WARNING.match(line.text))]
     ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
     if not heard:
-        why = "the ranger published no distance on /wall: it waits without end, or drops every scan"
-        if places := _suspects(recording, "ranger_node.py", "age", "hidden"):
+        why = "the ranger published no distance on /wall"
+        held = [e for e in recording.facts().get("conditions", []) if e["file"] == "ranger_node.py"]
+        if held:
+            code = ", ".join(f"`{each['code']}` in line {each['line']}" for each in held)
+            why += f"; before its publish() stand {code} (ranger_node.py)"
+        if places := _suspects(recording, "ranger_node.py", "age", "young_age", "hidden"):
             why = f"{places}; the ranger published no distance on /wall"
         return f"{why}; it warned: {ranger}" if ranger else why
     if not commands:
-        return (
-            f"the driver got {heard} distances and published no command: one of its callbacks hangs, and waits for "
-            "what only another callback of the node could bring"
-        )
+        said = f"the driver got {heard} distances and published no command"
+        loops = [each for each in recording.facts().get("slips", []) if "in the callback" in each["said"]]
+        if any(each.get("file") == "driver_node.py" for each in loops):
+            said += ": one of its callbacks hangs, and waits for what only another callback of the node could bring"
+        return said
     return ""
 
 
@@ -337,22 +350,39 @@ def _why_there(recording, times, away, wanted):
     if said := MISCONCEPTIONS["of_a_distance"](measured.values, truth, MOUNT[0]):
         if "wrong sign" in said and (place := _suspects(recording, "ranger_node.py", "exchanged_frames")):
             return place
+        if "every distance is" in said and (place := _suspects(recording, "ranger_node.py", "first_kept")):
+            return f"{place} ({said})"
         return f"{said} (/wall, ranger_node.py)"
     if not len(command):
         return ""
     before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
-    said = MISCONCEPTIONS["of_a_driver"](measured.values[before[known]], command.values[known], wanted)
+    heard, speed = measured.values[before[known]], command.values[known]
+    kept = MISCONCEPTIONS["of_kept_distances"](command.times[known], heard, speed, wanted) if known.any() else ""
+    said = kept or MISCONCEPTIONS["of_a_driver"](heard, speed, wanted)
     if "stop_at says" in said and (missing := declared(recording, "stop_at", "1.0")):
         return missing
-    kinds = {"stop_at says": ("hidden",), "every command is zero": ("age", "hidden")}
+    kinds = {"is not renewed": ("first_kept",), "stop_at says": ("hidden", "first_kept")}
+    kinds |= {"every command is zero": ("age", "hidden", "young_age"), "however far": ("first_kept",)}
+    kinds |= {"distances are dropped": ("young_age",)}
     about = next((kinds[words] for words in kinds if words in said), ())
-    if place := _suspects(recording, "driver_node.py", *about):
-        return f"{place} ({said})"
+    for file in ("driver_node.py", "ranger_node.py")[: 1 + ("young_age" in about)]:
+        if place := _suspects(recording, file, *about):
+            return f"{place} ({said})"
     places = [each for each in recording.facts().get("before_speeds", []) if each["file"] == "driver_node.py"]
-    if places and said.endswith("never holds"):
-        said += ": " + "; ".join(f"line {each['line']}, `{each['code']}`" for each in places)
+    if "every command is zero" in said and (other := _another_axis(recording)):
+        return f"the driver sets {other} of the command, and a cart drives ahead by linear.x (/cmd_vel, driver_node.py)"
+    if places and said.startswith("every command is zero"):
+        said += "; the speed is set only where these hold: "
+        said += ", and ".join(f"`{each['code']}` in line {each['line']}" for each in places)
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""
+
+
+def _another_axis(recording):
+    """Return which part of the commands is not zero, if linear.x always is; else nothing."""
+    parts = ("linear.y", "linear.z", "angular.z", "angular.x", "angular.y")
+    values = {part: recording.signal(f"topics/cmd_vel/{part.replace('.', '/')}").values for part in parts}
+    return next((part for part, each in values.items() if np.any(np.abs(each) > 0.01)), "")
 
 
 def _suspects(recording, file, *about):

@@ -13,6 +13,7 @@ FEWEST = 5  # values; fewer may fit by chance
 GAIN = 1.5  # [1/s] of the driver as it was given
 FASTEST = 0.6  # [m/s] of the driver as it was given
 STANDS = 0.01  # [m/s]
+OLDEST = 0.5  # [s] of a distance that the driver as it was given uses
 HEIGHT = 0.06  # [m] of base_link above the ground
 FRONT = 0.2  # [m] from base_link
 DEFAULT = 1.0  # [m] stop_at if it is not given
@@ -26,6 +27,11 @@ def of_a_mount(seen, mount, sign):
         return (
             "the transform is inverted: its numbers are the place of base_link, seen from lidar_link; with base_link "
             f"as the parent, they are that of lidar_link: x = {mount[0]:g}, z = {mount[2]:g}"
+        )
+    if sign < 0:
+        return (
+            "parent and child are swapped: lidar_link is the parent here, and its numbers do not fit that either; with "
+            f"base_link as the parent, they are x = {mount[0]:g}, z = {mount[2]:g}"
         )
     for factor, unit in ((1000, "millimetres"), (100, "centimetres")):
         if math.dist([each / factor for each in seen], mount) < 0.005:
@@ -60,10 +66,14 @@ def of_a_distance(measured, truth, mount):
     if np.ptp(measured) < CLOSE < np.ptp(truth):
         return f"every distance is {measured[-1]:.2f} m, however far the wall is"
     error = measured - truth
+    usual = float(np.median(error))
+    same = np.mean(np.abs(error - usual) < CLOSE) >= SHARE
+    if same and np.ptp(truth) > 4 * CLOSE and abs(usual) > 2 * CLOSE:
+        return f"every distance is {abs(usual):.2f} m too {'small' if usual < 0 else 'large'}, near the wall and far"
     if np.mean(error < -CLOSE) >= SHARE:
         return (
-            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away: something "
-            "nearer than the wall, or not ahead, is taken for it"
+            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away; nothing stands "
+            "ahead that is nearer than the wall"
         )
     if np.mean(error > CLOSE) >= SHARE:
         return f"the distance is too large, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away"
@@ -78,7 +88,7 @@ def of_a_driver(distance, speed, wanted):
     if _drives(speed, left):
         return ""
     if not np.any(np.abs(speed) > STANDS):
-        return "every command is zero although distances arrive: a condition before the speed is set never holds"
+        return "every command is zero although distances arrive"
     away = (np.abs(left) > CLOSE) & (np.abs(speed) > STANDS)
     if away.sum() >= FEWEST and np.mean(speed[away] * left[away] < 0) >= SHARE:
         return "the sign of linear.x is wrong: it drives away from the wall"
@@ -122,6 +132,23 @@ def of_a_driver(distance, speed, wanted):
             "too slow for that distance"
         )
     return ""
+
+
+def of_kept_distances(times, distance, speed, wanted):
+    """Explain a driver that soon stops for good, far from where it should, while distances go on arriving."""
+    driven = np.flatnonzero(np.abs(speed) > STANDS)
+    if not len(driven):
+        return ""
+    first, last = driven[0], driven[-1]
+    after = slice(last + 1, None)
+    if (times[last] - times[first]) / 1e9 > 2 * OLDEST or (times[-1] - times[last]) / 1e9 < 4 * OLDEST:
+        return ""
+    if not np.all(np.abs(distance[after] - wanted) > 2 * CLOSE):
+        return ""
+    return (
+        f"it drives for {(times[last] - times[first]) / 1e9:.1f} s, and then every command is zero although distances "
+        "go on arriving: the distance that it uses is not renewed, and is soon too old"
+    )
 
 
 def _drives(speed, left):

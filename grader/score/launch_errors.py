@@ -85,6 +85,10 @@ MEANINGS = (
         "parameter of a node, ParameterValue(..., value_type=float) converts it when the launch runs",
     ),
     (
+        re.compile(r"Node has no argument 'use_sim_time'"),
+        "use_sim_time is a parameter of the node: parameters=[{{'use_sim_time': True}}]",
+    ),
+    (
         re.compile(r"missing required argument '([^']+)'"),
         "an argument without default_value must be given in every call: DeclareLaunchArgument('{0}', "
         "default_value='...')",

@@ -118,10 +118,18 @@ def deaths(recording: Recording) -> Iterator[Death]:
             if int(match.group(2)) > 0:
                 lines = output.get(match.group(1), [])
                 crash = read_crash(lines)
-                said = crash.error if crash else next(reversed(lines), "")
+                said = crash.error if crash else _last_words(lines)
                 yield Death(match.group(1).rpartition("-")[0], int(match.group(2)), said, crash)
         elif match := OUTPUT.match(line.text):
             output.setdefault(match.group(1), []).append(match.group(2))
+
+
+def _last_words(lines: list[str]) -> str:
+    """Return the last line of an output; the error before the usage of a command, if it ends with that."""
+    usage = next((number for number, line in enumerate(lines) if line.startswith("usage:")), 0)
+    if usage and "error" in lines[usage - 1].lower():
+        return lines[usage - 1]
+    return lines[-1] if lines else ""
 
 
 def not_started(recording: Recording, findings: Iterable[Finding] = ()) -> str:
@@ -171,6 +179,12 @@ def simulator_fault(said: str, recording: Recording) -> str:
         return f"'{given}' is a text; the value of the argument is LaunchConfiguration('{given}')"
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
     asked = str(trial.get("parameters", {}).get("world", ""))
+    defaults = {place.get("default", "") for place in recording.facts().get("declared", []) if place["name"] == "world"}
+    if not folder and given in {place for place in defaults if "/" not in place}:
+        return (
+            f"{name} has no folder, so it is looked for in the folder in which ros2 launch was called, and among the "
+            f"built-in worlds; one beside the launch file is str(Path(__file__).parent / '{name}')"
+        )
     if folder and (name == asked or f" {name}" in said or not asked):
         return (
             f"{name} is looked for in the folder {folder}, and it is not there: the worlds of the course are built in, "

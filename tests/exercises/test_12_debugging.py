@@ -24,6 +24,8 @@ def driven(distance, left, gain=1.5, fastest=0.6):
         ((0.2, 0.0, -0.19), -1, "parent and child are swapped"),
         ((0.2, 0.0, -0.19), 1, "its numbers are the place of base_link"),
         ((0.2, 0.0, 0.19), 1, "the sign of x is wrong"),
+        ((0.2, 0.0, 0.19), -1, "lidar_link is the parent here, and its numbers do not fit that either"),
+        ((-0.2, 0.0, -0.19), -1, "with base_link as the parent, they are x = -0.2, z = 0.19"),
         ((-0.2, 0.0, -0.19), 1, "the sign of z is wrong"),
         ((-0.2, 0.0, 0.25), 1, "above the ground"),
         ((-200.0, 0.0, 190.0), 1, "in millimetres"),
@@ -49,6 +51,8 @@ def test_the_place_of_the_lidar(seen, sign, words):
         (np.full(40, 0.8), "every distance is 0.80 m"),
         (TRUTH * 0.5, "nearer than the wall"),
         (TRUTH * 1.5, "too large"),
+        (TRUTH - 1.0, "every distance is 1.00 m too small, near the wall and far"),
+        (TRUTH + 0.5, "every distance is 0.50 m too large"),
         (TRUTH[:3] * 9, ""),
     ],
 )
@@ -85,6 +89,17 @@ def test_the_commands(given, words):
 
 
 @pytest.mark.parametrize(
+    ("driven", "ends_at", "found"),
+    [(0.55, 8.0, True), (3.0, 8.0, False), (0.55, 1.5, False), (0.0, 8.0, False)],
+)
+def test_a_distance_that_is_not_renewed(driven, ends_at, found):
+    times = np.arange(0.0, ends_at, 0.05)
+    distance, speed = np.full(len(times), 3.7), np.where(times < driven, 0.6, 0.0)
+    assert ("is not renewed" in NAMES["of_kept_distances"](times * 1e9, distance, speed, 1.0)) == found
+    assert NAMES["of_kept_distances"](times * 1e9, np.full(len(times), 1.0), speed, 1.0) == ""
+
+
+@pytest.mark.parametrize(
     ("remapping", "words"),
     [
         (("sensors", "sensors/wall", "/wall"), "'sensors/wall', which means /sensors/sensors/wall in the namespace"),
@@ -92,6 +107,9 @@ def test_the_commands(given, words):
         (("sensors", "/wall", "wall"), "here, they are exchanged"),
         (("", "sensors/wall", "/wall"), "here, they are exchanged"),
         (("", "other", "/wall"), "lives in the namespace /sensors"),
+        (("sensors", "wall", "/sensors/wall"), "changes nothing, because 'wall' already means /sensors/wall here"),
+        (("sensors", "/sensors/wall", "wall"), "the new name 'wall' in the remapping has no slash at its beginning"),
+        (("sensors", "wall", "wall"), "so it means /sensors/wall; the other node uses /wall"),
         (("sensors", "other", "another"), "lives in the namespace /sensors"),
     ],
 )
@@ -125,6 +143,12 @@ def test_a_driver_whose_commands_have_another_name():
     assert "/driver publishes its commands on /model/robot/cmd_vel" in finding.measured
 
 
+def test_a_driver_whose_commands_are_in_its_namespace():
+    end = {"kind": "publisher", "type": "geometry_msgs/msg/Twist", "topic": "/a/cmd_vel", "node": "/a/driver"}
+    recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
+    assert "lives in the namespace /a" in CHECKS["all_alive"](recording, {}).explanation
+
+
 BRIDGE = {
     "source": "bridge.yaml:11",
     "ros_topic": "/model/robot/cmd_vel",
@@ -146,6 +170,15 @@ BRIDGE = {
 def test_names_of_the_commands_that_are_exchanged(gz_topic, words):
     recording = SimpleNamespace(facts=lambda: {"bridges": [BRIDGE | {"gz_topic": gz_topic}]})
     assert words in CHECKS["commands_go_to_gazebo"](recording, {}).measured
+
+
+@pytest.mark.parametrize(
+    ("direction", "words"), [("BIDIRECTIONAL", "/scan goes both ways"), ("ROS_TO_GZ", "/scan goes the wrong way")]
+)
+def test_scans_that_go_the_wrong_way(direction, words):
+    wrong = BRIDGE | {"ros_topic": "/scan", "gz_topic": "/lidar/scan", "direction": direction}
+    finding = CHECKS["scans_are_heard"](SimpleNamespace(facts=lambda: {"bridges": [wrong]}), {})
+    assert not finding.passed and words in finding.measured
 
 
 @pytest.mark.parametrize(
@@ -173,6 +206,27 @@ def test_a_ranger_on_the_wall_clock(distances, elsewhere, words):
     assert not finding.passed and words in finding.explanation, finding.explanation
 
 
+def test_a_ranger_on_the_wall_clock_that_takes_scans_of_any_age():
+    each = {"reliability": "RELIABLE", "durability": "VOLATILE", "type": "sensor_msgs/msg/Range", "topic": "/wall"}
+    place = {"file": "bringup.launch.py", "line": 38, "program": "ranger_node.py", "sim_time": False, "elsewhere": 0}
+    suspect = {"file": "ranger_node.py", "line": 9, "about": "any_age", "said": "the limit is too large"}
+    facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place], "suspects": [suspect]}
+    recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([1.0])))
+    assert "switched off: ranger_node.py, line 9: the limit" in CHECKS["simulated_time"](recording, {}).explanation
+
+
+def test_a_ranger_that_does_not_get_the_simulated_time_of_its_action():
+    each = {"reliability": "RELIABLE", "durability": "VOLATILE", "type": "sensor_msgs/msg/Range", "topic": "/wall"}
+    place = {"file": "bringup.launch.py", "line": 38, "program": "ranger_node.py", "sim_time": True, "mentioned": True}
+    facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place]}
+    recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([])))
+    assert (
+        "line 38: use_sim_time is mentioned in this action, but" in CHECKS["simulated_time"](recording, {}).explanation
+    )
+    place["mentioned"] = False
+    assert CHECKS["simulated_time"](recording, {}).explanation == ""
+
+
 def test_a_suspect_is_that_of_its_file():
     place = {"line": 7, "about": "age", "said": "turned"}
     facts = {"suspects": [place | {"file": "ranger_node.py"}, place | {"file": "driver_node.py", "about": "hidden"}]}
@@ -184,3 +238,31 @@ def test_a_suspect_is_that_of_its_file():
 def test_a_simulator_that_ends_by_itself_has_run():
     recording = SimpleNamespace(facts=lambda: {"launch": {"simulators": [{"ran": False}]}}, ended_s=4.0)
     assert "ended by itself after 4.0 s" in CHECKS["time_runs"](recording, {}).measured
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [("the loop in the callback drive keeps the executor", "one of its callbacks hangs"), ("another slip", "")],
+)
+def test_a_driver_that_publishes_nothing(said, words):
+    facts = {"slips": [{"file": "driver_node.py", "line": 3, "said": said}]}
+    numbers = {"topics/wall/range": [1.0] * 8, "topics/cmd_vel/count": []}
+    recording = SimpleNamespace(facts=lambda: facts, signal=numbers.get, lines=lambda entity: [])
+    found = CHECKS["_why_still"](recording)
+    assert found.startswith("the driver got 8 distances and published no command")
+    assert ("one of its callbacks hangs" in found) == bool(words)
+
+
+def test_a_ranger_that_publishes_nothing():
+    place = {"file": "ranger_node.py", "line": 9, "code": "if ahead:", "sends": 12, "topic": "/wall"}
+    recording = SimpleNamespace(
+        facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: []
+    )
+    assert "before its publish() stand `if ahead:` in line 9" in CHECKS["_why_still"](recording)
+
+
+def test_a_world_without_the_folder_of_the_launch_file():
+    error = "world file 'depot.sdf' was not found as a path"
+    facts = {"launch": {"simulators": [{"ran": False, "error": error}]}}
+    finding = CHECKS["time_runs"](SimpleNamespace(facts=lambda: facts, ended_s=0.0, properties=lambda name: {}), {})
+    assert "it lies beside the launch file" in finding.explanation

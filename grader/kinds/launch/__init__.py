@@ -14,7 +14,7 @@ from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
 from gz_course.grader.lint.launch_files import launch_places
-from gz_course.grader.lint.origins import before_speeds
+from gz_course.grader.lint.origins import before_speeds, conditions
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.printable import shown
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gz_course.grader.submission import Submission
 
 
+LOST = ("is given twice", "a second document begins here", "is not a Gazebo topic name")
 MANIFEST = "exercise.toml"
 _MARKUP = (".xml", ".yaml", ".yml")
 
@@ -56,6 +57,7 @@ def _places(submission: Submission, duration: float) -> dict[str, list[dict[str,
                     "slips": slips(content, duration),
                     "suspects": suspects(content),
                     "before_speeds": before_speeds(content),
+                    "conditions": conditions(content),
                 }
             )
             for kind, each in places.items():
@@ -68,8 +70,8 @@ def _places(submission: Submission, duration: float) -> dict[str, list[dict[str,
 
 
 def _twice(name: str, content: bytes) -> list[dict[str, Any]]:
-    """Return `line` and `said` of the first key that stands twice in one entry of a bridge's file."""
-    found = [each for each in read(name, content).findings if "is given twice" in each.sentence][:1]
+    """Return `line` and `said` of the first thing that a bridge's file loses: a key that stands twice, a document."""
+    found = [each for each in read(name, content).findings if any(words in each.sentence for words in LOST)][:1]
     return [{"line": int(each.place.rpartition(":")[2]), "said": shown(each.sentence)} for each in found]
 
 

@@ -6,13 +6,14 @@ Source: ros2/launch, launch/launch/event_handlers/on_process_exit.py, launch/lau
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import last_name
+from gz_course.grader.lint.syntax import called, last_name
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
 MAIN = "generate_launch_description"
+ENDS = {"shutdown", "try_shutdown", "exit", "_exit", "SystemExit", "ExternalShutdownException"}
 ENDLESS = ("gz_sim.launch.py", "parameter_bridge", "robot_state_publisher", "static_transform_publisher")
 
 
@@ -77,12 +78,13 @@ def called_functions(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def events_that_never_come(file: LaunchFile) -> Iterator[Place]:
-    """Find what waits for the end of a program that runs as long as the launch does."""
+def events_that_never_come(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+    """Find what waits for the end of a program that runs as long as the launch does; `nodes` are the student's own."""
     for call in file.calls("OnProcessExit"):
         then = argument(call, "on_exit")
         target = argument(call, "target_action", 0)
-        what = endless(*(file.parts(target) if target is not None else [file.tree]))
+        parts = file.parts(target) if target is not None else [file.tree]
+        what = endless(*parts) or (_own_node(parts, nodes) if target is not None else "")
         ends = any(text(each) in ("create", "remove") for each in file.nodes)
         if what and then is not None and _starts(then, file) and not (target is None and ends):
             yield (
@@ -129,6 +131,21 @@ def endless(*parts: ast.AST) -> str:
     if {"gz", "sim"} <= set(said) or any(each.startswith("gz sim") for each in said):
         return "gz sim"
     return next((name for name in ENDLESS if name in said), "")
+
+
+def _own_node(parts: Iterable[ast.AST], nodes: Mapping[str, bytes]) -> str:
+    """Return the name of the student's program that an action starts, if it spins and does not end by itself."""
+    names = {text(each).rpartition("/")[2] for part in parts for each in ast.walk(part)} & nodes.keys()
+    for name in sorted(names):
+        try:
+            tree = ast.parse(nodes[name])
+        except (SyntaxError, ValueError, RecursionError):
+            continue
+        own = [each for each in ast.walk(tree) if isinstance(each, ast.ClassDef)]
+        inside = {last_name(each) for part in own for each in ast.walk(part)}
+        if "spin" in called(tree) and not inside & ENDS:
+            return name
+    return ""
 
 
 def _starts(then: ast.expr, file: LaunchFile) -> bool:
@@ -200,6 +217,6 @@ def declared_too_late(file: LaunchFile) -> Iterator[Place]:
 
 
 LOOKS = (
-    declared_too_late, called_functions, functions_without_effect, never_added, events_that_never_come, too_late,
-    waited_for_and_never_started, long_waits, swapped_conditions,
+    declared_too_late, called_functions, functions_without_effect, never_added, too_late, waited_for_and_never_started,
+    long_waits, swapped_conditions,
 )  # fmt: skip

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
 
 
 def remappings(file: LaunchFile) -> Iterator[dict[str, Any]]:
-    """Yield `line`, the `namespace` of the node (empty for the root), and the names `from` and `to`, as written."""
+    """Yield `line`, the `namespace` of the node (empty for the root), and the names `from` and `to`, as written.
+
+    Rules among the words of a command, `-r FROM:=TO`, come after those in `remappings`.
+    """
     for call in file.calls("Node", "LifecycleNode"):
         given = file.value(argument(call, "remappings"))
         space = text(file.value(argument(call, "namespace"))).strip("/")
@@ -19,3 +23,13 @@ def remappings(file: LaunchFile) -> Iterator[dict[str, Any]]:
                 old, new = (text(file.value(each)) for each in pair.elts)
                 if old and new:
                     yield {"line": pair.lineno, "namespace": space, "from": old, "to": new}
+    for call in file.calls("Node", "LifecycleNode", "ExecuteProcess"):
+        words = file.value(argument(call, "arguments") or argument(call, "cmd", 0))
+        said = [(each.lineno, text(each)) for each in words.elts] if isinstance(words, ast.List | ast.Tuple) else []
+        rules = {line_and_word for option, line_and_word in pairwise(said) if option[1] in ("-r", "--remap")}
+        spaces = [word.partition(":=")[2] for _, word in rules if word.startswith("__ns:=")]
+        space = (spaces or [text(file.value(argument(call, "namespace")))])[0].strip("/")
+        for line, word in sorted(rules):
+            old, _, new = word.partition(":=")
+            if old and new and not old.startswith("__"):
+                yield {"line": line, "namespace": space, "from": old, "to": new}

@@ -1,4 +1,4 @@
-"""Commands that give a program ROS parameters that it does not read: without --ros-args, or undeclared.
+"""ROS parameters that a program does not get as they were meant: without --ros-args, undeclared, apart, or nested.
 
 A remapping, -r FROM:=TO, works without it in its old form; a parameter does not.
 
@@ -36,6 +36,50 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
                     "belong to the program, and ROS does not read them",
                 )
                 break
+
+
+def values_apart(file: LaunchFile) -> Iterator[Place]:
+    """Find `"-p", "NAME:=", VALUE` in a command, where the value is a word of its own."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        for given in (argument(call, "cmd", 0), argument(call, "arguments")):
+            words = file.value(given)
+            for word, value in pairwise(words.elts) if isinstance(words, ast.List) else ():
+                if (said := text(word)).endswith(":="):
+                    yield (
+                        word.lineno,
+                        f"{said!r} and its value are two words here, and must be one: a list inside of the list joins "
+                        f"them, [{said!r}, {ast.unparse(value)[:60]}]",
+                    )
+
+
+def nested_parameters(file: LaunchFile) -> Iterator[Place]:
+    """Find a dict of parameters with the levels of a parameter file, which makes other names of them."""
+    for call in file.calls("Node", "LifecycleNode"):
+        given = argument(call, "parameters")
+        for part in file.parts(given) if given is not None else ():
+            for table in (each for each in ast.walk(part) if isinstance(each, ast.Dict)):
+                if any(key is not None and text(key) == "ros__parameters" for key in table.keys):
+                    yield (
+                        table.lineno,
+                        "ros__parameters and the name of the node belong into a parameter file; a dict in parameters "
+                        "has the parameters themselves, such as {'use_sim_time': True}, and takes all else as part of "
+                        "their names",
+                    )
+
+
+def quoted_truths(file: LaunchFile) -> Iterator[Place]:
+    """Find `{"use_sim_time": "True"}` in the parameters of a node: it takes True, and no text."""
+    for call in file.calls("Node", "LifecycleNode"):
+        given = argument(call, "parameters")
+        for part in file.parts(given) if given is not None else ():
+            for table in (each for each in ast.walk(part) if isinstance(each, ast.Dict)):
+                for key, value in zip(table.keys, table.values, strict=True):
+                    if key is not None and text(key) == "use_sim_time" and text(value):
+                        yield (
+                            value.lineno,
+                            f"use_sim_time is given as the text {text(value)!r}, and takes True or False, without "
+                            "quotes",
+                        )
 
 
 def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
@@ -103,4 +147,4 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
 
 
-LOOKS = (without_ros_args,)
+LOOKS = (without_ros_args, values_apart, nested_parameters, quoted_truths)

@@ -15,6 +15,7 @@ SIM_TIME = "use_sim_time"
 def programs(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Yield `line`, `program` (the name of its file) and `sim_time`, whether the action mentions it, of each program.
 
+    `mentioned` is the same, and false where simulated time may come in a way that is not seen, as from a file.
     `elsewhere` is what another action of a node has it for: its line and executable; 0 and empty if none has.
     """
     others = [
@@ -28,11 +29,12 @@ def programs(file: LaunchFile) -> Iterator[dict[str, Any]]:
         for word in words:
             name = word.rpartition("/")[2]
             if name.endswith(".py") and " " not in name:
-                mentioned = any(SIM_TIME in each for each in words) or any(_unknown(file, call))
+                mentioned = any(SIM_TIME in each for each in words)
                 yield {
                     "line": call.lineno,
                     "program": name,
-                    "sim_time": mentioned,
+                    "sim_time": mentioned or any(_unknown(file, call)),
+                    "mentioned": mentioned,
                     "elsewhere": line,
                     "executable": executable,
                 }

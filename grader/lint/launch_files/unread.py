@@ -77,6 +77,24 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
                 )
 
 
+def for_another_program(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+    """Find a parameter that is given to one program of the submission, and declared by another one only."""
+    declared = {name: declared_parameters(content) for name, content in nodes.items()}
+    for call in file.calls("Node"):
+        words = {text(each).rpartition("/")[2] for part in file.parts(call) for each in ast.walk(part)}
+        program = next(iter(sorted(words & nodes.keys())), "")
+        if not program or b"parameter" in nodes[program]:
+            continue
+        for name, line in _given(file, call):
+            others = [other for other, names in sorted(declared.items()) if name in names]
+            if len(others) == 1:
+                yield (
+                    line,
+                    f"the parameter {name} is given to {program} here, which declares none; {others[0]} declares it, "
+                    "so it belongs to the action that starts that",
+                )
+
+
 def _near_sim_time(name: str) -> bool:
     """Return whether a name is nearly use_sim_time, and another one."""
     return name != "use_sim_time" and bool(nearest_name(name.lower(), ["use_sim_time"], 0.75))

@@ -65,7 +65,7 @@ def bridged(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, measured, explanation=why)
     if measured := by_python(recording, "parameter_bridge"):
         return Finding(False, expected, measured)
-    faults = [_fault(bridge, wanted, same, facts) for bridge in candidates]
+    faults = [_fault(bridge, wanted, same, facts, made) for bridge in candidates]
     if all(faults):
         return Finding(False, expected, faults[0])
     bridge = candidates[faults.index("")]
@@ -89,10 +89,11 @@ def _not_there(wanted: dict[str, str], made: list[Bridged]) -> str:
     return f"no bridge has the ROS topic {ros}" + (f"; is it '{near}'?" if near else "")
 
 
-def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict[str, Any]) -> str:
+def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict[str, Any], made: list[Bridged]) -> str:
     """Return what is wrong with a bridge to the right ROS topic; empty if nothing is."""
     if bridge.gz_topic not in same:
-        return f"{bridge.place}: {_wrong_gz_topic(bridge, wanted, facts.get('gz_topics', {}))}"
+        wrong = _wrong_gz_topic(bridge, wanted, facts.get("gz_topics", {}))
+        return f"{bridge.place}: {wrong}{_of_another(bridge, wanted, made)}"
     if bridge.ros_type != wanted["ros_type"]:
         return f"{bridge.place}: {bridge.ros_topic} is {bridge.ros_type} here, but the node uses {wanted['ros_type']}"
     if bridge.gz_type != wanted["gz_type"]:
@@ -102,6 +103,17 @@ def _fault(bridge: Bridged, wanted: dict[str, str], same: list[str], facts: dict
     if bridge.direction == "BIDIRECTIONAL":
         return f"{bridge.place}: {bridge.ros_topic} goes both ways (no direction means that); one way is right"
     return f"{bridge.place}: {bridge.ros_topic} goes the wrong way, {bridge.direction}: {_why(wanted)}"
+
+
+def _of_another(bridge: Bridged, wanted: dict[str, str], made: list[Bridged]) -> str:
+    """Return which other bridge has the Gazebo topic that belongs here, or the one that stands here; else nothing."""
+    for other in made:
+        if other.gz_topic == wanted["gz_topic"] and other.ros_topic != bridge.ros_topic:
+            return f"; the one that does stands in the entry of {other.ros_topic} ({other.place})"
+    for other in made:
+        if other.gz_topic == bridge.gz_topic and other.ros_topic != bridge.ros_topic:
+            return f"; the entry of {other.ros_topic} ({other.place}) has it, too"
+    return ""
 
 
 def _wrong_gz_topic(bridge: Bridged, wanted: dict[str, str], gz: dict[str, Any]) -> str:

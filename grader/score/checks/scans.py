@@ -73,7 +73,7 @@ def scans(recording: Recording, parameters: Table) -> Finding:
         hits = float(np.mean((every >= clear) & (every <= longest)))
     if own > OWN:
         why = "the lidar sees the robot itself: it must stand higher than all the rest, or out of its way"
-        why = (scanning.tilted(body) if body else "") or why
+        why = (scanning.tilted(body) or scanning.enclosed(body) if body else "") or why
         measured = f"{_percent(own)} of the rays ended within {told(clear)} m, where nothing else stands"
         return Finding(False, expected, measured, explanation=why)
     if hits < sees:

@@ -80,6 +80,7 @@ from gz_course.grader.score.launch_errors import launch_meaning
             "ParameterAlreadyDeclaredException: Parameter(s) already declared: ['use_sim_time']",
             "{'use_sim_time': True}",
         ),
+        ("TypeError: Node has no argument 'use_sim_time'; there are: name", "parameters=[{'use_sim_time': True}]"),
         ("NameError: name 'bridge_file' is not defined", ""),
         ("[Errno 2] No such file or directory: 'gz'", ""),
     ],

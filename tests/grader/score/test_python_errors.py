@@ -114,6 +114,7 @@ ERRORS = {
     ("TypeError: Node.get_logger() takes 1 positional argument but 2 were given", ""): "get_logger() without arguments",
     ("TypeError: RcutilsLogger.info() takes 2 positional arguments but 3 were given", ""): "one text: f'speed",
     ("TypeError: Node.__init__() takes 2 positional arguments but 3 were given", ""): "takes the name only",
+    ("TypeError: Node.__init__() got an unexpected keyword argument 'use_sim_time'", ""): "comes from outside",
     (
         "TypeError: Node.__init__() missing 1 required positional argument: 'node_name'",
         'Node.__init__("a")',

@@ -74,9 +74,9 @@ def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
         elif period > longest:
             yield (
                 call.lineno,
-                f"the timer's period is in seconds, not in calls per second: create_timer({value} ...) fires for the "
-                f"first time after {period:g} s, when the run of {longest:g} s is over; {period:g} times per second "
-                f"are create_timer({1 / period:g}, ...)",
+                f"the timer's period is in seconds: create_timer({value} ...) fires for the first time after "
+                f"{period:g} s, when the run of {longest:g} s is over; {period:g} ms are {period / 1000:g}, and "
+                f"{period:g} times per second are create_timer({1 / period:g}, ...)",
             )
         elif period == 0 and "//" in code:
             yield call.lineno, f"{code} is 0, because // leaves out the fraction: / divides numbers"

@@ -138,6 +138,17 @@ def _is_latest(node: ast.expr) -> bool:
     return isinstance(node, ast.Call) and last_name(node.func) == "Time" and not node.args and not node.keywords
 
 
+def into_itself(tree: ast.AST) -> Iterator[Place]:
+    """Find a lookup whose two frames are the same expression."""
+    for call, _ in _lookups(tree):
+        if len(call.args) >= 2 and ast.unparse(call.args[0]) == ast.unparse(call.args[1]):
+            yield (
+                call.lineno,
+                f"both frames of this lookup are {ast.unparse(call.args[0])[:40]}, so its transform changes nothing: "
+                "the first is the frame in which the result is wanted, the second that of the data",
+            )
+
+
 def _is_now(node: ast.expr) -> bool:
     text = ast.unparse(node)
     return text.endswith((".now()", ".now().to_msg()"))
@@ -255,4 +266,4 @@ def _shared(tree: ast.Module) -> Iterator[int]:
         )
 
 
-LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment, other_time_asked_first)
+LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment, other_time_asked_first, into_itself)

@@ -117,6 +117,37 @@ MEANINGS = (
     ),
     (
         re.compile(
+            r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '([^']*)' of type 'STRING', "
+            r"expecting type 'BOOL'"
+        ),
+        "{0} is given as a text, '{1}' in quotes, and is of type BOOL: in Python that is True or False without quotes",
+    ),
+    (
+        re.compile(
+            r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '(-?\d*\.?\d*)' of type 'STRING', "
+            r"expecting type '(DOUBLE|INTEGER)'"
+        ),
+        "{0} is given as a text, '{1}', and its default in declare_parameter() is of type {2}: a number has no quotes, "
+        "and in a launch file ParameterValue(..., value_type=float), or int, makes one of a text",
+    ),
+    (
+        re.compile(
+            r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '([^']*)' of type 'STRING', "
+            r"expecting type '(DOUBLE|INTEGER)'"
+        ),
+        "the value '{1}' that comes from outside for {0} is no number, and its default in declare_parameter() is of "
+        "type {2}",
+    ),
+    (
+        re.compile(
+            r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '(-?\d+)' of type 'INTEGER', "
+            r"expecting type 'DOUBLE'"
+        ),
+        "the value {1} that comes from outside for {0} is of type INTEGER, and the default in declare_parameter() is "
+        "of type DOUBLE: a DOUBLE has a point, so write {1}.0",
+    ),
+    (
+        re.compile(
             r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '([^']*)' of type '(\w+)', "
             r"expecting type '(\w+)'"
         ),

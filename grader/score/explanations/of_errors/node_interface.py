@@ -107,6 +107,10 @@ FUNCTIONS = frozenset({"spin", "spin_once", "shutdown"})
 
 def arguments(error: str, code: str) -> str:
     """Explain a call of rclpy with arguments that it does not take."""
+    if re.search(r"Node\.__init__\(\) got an unexpected keyword argument 'use_sim_time'", error):
+        return (
+            "use_sim_time is a parameter and comes from outside: parameters=[{'use_sim_time': True}] in a launch file"
+        )
     match = re.search(r"TypeError: ([\w.]+)\(\) (got an unexpected|takes|missing|got multiple)", error)
     if match is None:
         return ""

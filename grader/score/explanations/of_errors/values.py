@@ -65,8 +65,13 @@ MEANINGS = (
         "the class has no base that takes a name: class MyNode(Node):, and super().__init__('NODE_NAME')",
     ),
     (
+        re.compile(r"'(str|int|dict)' object has no attribute '(?:sec|nanosec)'"),
+        "a stamp in the message is of type {0}, and must be a time: copy header.stamp of another message, or take "
+        "self.get_clock().now().to_msg()",
+    ),
+    (
         re.compile(r"InvalidQoSProfileException"),
-        "the depth is given by its name: QoSProfile(depth=10)",
+        "a QoSProfile needs a depth, and the depth is given by its name: QoSProfile(depth=10)",
     ),
     (
         re.compile(r"TypeError: Expected <class '[\w.]+\.(\w+)'>, got <class '[\w.]+\._\w+\.(?!Metaclass_)(\w+)'>"),

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from gz_course.grader.score.explanations.of_robots.topics import heard_elsewhere, topic_of
 from gz_course.grader.score.graphs import Bridged
 from gz_course.grader.score.robots import Robot, Sensor
 from gz_course.grader.score.steps import told
 
+HOUSING = 0.15  # [m] across
 LIDARS = ("gpu_lidar", "lidar", "ray", "gpu_ray")
 HORIZONTAL = ("lidar/scan/horizontal", "ray/scan/horizontal")
 
@@ -104,6 +107,21 @@ def tilted(robot: Robot) -> str:
         tilt = math.degrees(math.acos(max(-1.0, min(1.0, float(sensor.up[2])))))
         if 3.0 < tilt < 177.0:
             return f"the lidar is tilted by {tilt:.0f} degrees, so its rays go into the ground and into the air"
+    return ""
+
+
+def enclosed(robot: Robot) -> str:
+    """Return which part of the robot the lidar is inside of; its own housing is smaller than `HOUSING`."""
+    for sensor in lidars(robot):
+        for link, shape in robot.shapes():
+            if shape.kind not in ("box", "cylinder") or float(np.sort(shape.size)[1]) < HOUSING:
+                continue
+            place = (sensor.position - shape.position) @ shape.rotation
+            if np.all(np.abs(place) < shape.size / 2):
+                return (
+                    f"the lidar is inside of {shape.part or link.name}: a sensor stands at the origin of the link that "
+                    '<gazebo reference="LINK"> names, and that is in the body here'
+                )
     return ""
 
 

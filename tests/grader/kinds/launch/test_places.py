@@ -42,3 +42,10 @@ def test_entries_of_a_bridge_without_a_dash_between_them_are_a_mistake():
         facts = plan(find_exercise("12"), Submission(Path(), "bringup.launch.py", "", files=files)).facts
         found = facts.get("launch_slips", [])
         assert [each["line"] for each in found] == lines and all("a dash is missing" in each["said"] for each in found)
+
+
+def test_a_second_document_of_a_bridges_file_is_a_mistake():
+    entry = b"- ros_topic_name: /a\n  gz_topic_name: /a\n  direction: GZ_TO_ROS\n"
+    files = {"bringup.launch.py": b"", "bridge.yaml": entry + b"---\n" + entry.replace(b"/a", b"/b")}
+    facts = plan(find_exercise("12"), Submission(Path(), "bringup.launch.py", "", files=files)).facts
+    assert ["a second document begins here" in each["said"] for each in facts["launch_slips"]] == [True]

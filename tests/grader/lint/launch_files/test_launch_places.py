@@ -213,6 +213,17 @@ def test_what_is_no_python_has_no_places():
     assert launch_places(b"def (") == {}
 
 
+def test_remappings_among_the_words_of_a_command_are_listed():
+    text = (
+        "Node(namespace='arm', arguments=['a.py', '--ros-args', '-r', 'wall:=/wall', '-r', '__node:=a'])\n"
+        "ExecuteProcess(cmd=['python3', 'b.py', '--ros-args', '-r', '__ns:=/leg', '--remap', 'a:=b', '-r', NAME])\n"
+    )
+    assert launch_places(text.encode())["remappings"] == [
+        {"line": 1, "namespace": "arm", "from": "wall", "to": "/wall"},
+        {"line": 2, "namespace": "leg", "from": "a", "to": "b"},
+    ]
+
+
 def test_remappings_are_listed_with_the_namespace_of_their_node():
     text = (
         "Node(\n    namespace='/arm', remappings=[('wall', '/wall'), (NAME, 'x')])\nNAME = 'out'\nNode(remappings=3)\n"
@@ -241,6 +252,21 @@ def test_the_condition_of_a_group_is_that_of_its_simulator():
     inside = RIGHT.replace("stands = ExecuteProcess(", "stands = GroupAction(condition=c, actions=[ExecuteProcess(")
     inside = inside.replace(", condition=IfCondition(paused))", ")])")
     assert launch_places(inside.encode())["simulators_made"][0]["condition"] == "c"
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [
+        ("class Watch:\n    pass\nrclpy.spin(Watch())\n", ["watch.py has ended, and it runs as long as the launch"]),
+        ("class Watch:\n    def done(self):\n        raise SystemExit\nrclpy.spin(Watch())\n", []),
+        ("print(1)\n", []),
+        ("def (", []),
+    ],
+)
+def test_an_event_after_the_end_of_a_node_that_spins(program, words):
+    waits = RIGHT.replace("target_action=create, on_exit=[bridge]", "target_action=watch, on_exit=[bridge]")
+    found = launch_places(waits.encode(), {"watch.py": program.encode()})["launch_slips"]
+    assert [word in each["said"] for word, each in zip(words, found, strict=True)] == [True] * len(words), found
 
 
 def test_a_name_stands_for_its_words():

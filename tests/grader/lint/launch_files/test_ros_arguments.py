@@ -42,3 +42,40 @@ def test_a_parameter_that_the_program_does_not_declare():
 
     assert "a.py declares no parameter gap" in said(b"node.declare_parameter('distance', 1.2)")
     assert "declares no" not in said(b"node.declare_parameter('gap', 1.2)") + said(b"pass")
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        ('"-p", "gap:=", LaunchConfiguration("gap")', True),
+        ('"-p", "gap:=", "1.2"', True),
+        ('"-p", ["gap:=", LaunchConfiguration("gap")]', False),
+        ('"-p", "gap:=1.2"', False),
+    ],
+)
+def test_a_value_that_is_a_word_of_its_own(words, found):
+    launch = f'LaunchDescription([ExecuteProcess(cmd=["python3", "a.py", "--ros-args", {words}])])\n'
+    slips = launch_places(launch.encode())["launch_slips"]
+    assert any("'gap:=' and its value are two words" in each["said"] for each in slips) == found
+
+
+@pytest.mark.parametrize(
+    ("parameters", "found"),
+    [
+        ('[{"a": {"ros__parameters": {"use_sim_time": True}}}]', True),
+        ('[{"ros__parameters": {"use_sim_time": True}}]', True),
+        ('[{"use_sim_time": True, "pid": {"gain": 1.0}}]', False),
+        ('["parameters.yaml"]', False),
+    ],
+)
+def test_a_dict_with_the_levels_of_a_parameter_file(parameters, found):
+    launch = f'LaunchDescription([Node(package="a", executable="b", parameters={parameters})])\n'
+    slips = launch_places(launch.encode())["launch_slips"]
+    assert any("belong into a parameter file" in each["said"] for each in slips) == found
+
+
+@pytest.mark.parametrize(("value", "found"), [('"True"', True), ('"yes"', True), ("True", False), ("TIME", False)])
+def test_a_truth_in_quotes(value, found):
+    launch = f'LaunchDescription([Node(executable="b", parameters=[{{"use_sim_time": {value}}}])])\n'
+    slips = launch_places(launch.encode())["launch_slips"]
+    assert any("and takes True or False, without quotes" in each["said"] for each in slips) == found

@@ -49,3 +49,14 @@ def test_what_is_not_known_is_no_mistake():
     assert slips(read) == ""
     other = RIGHT.replace('"stop_at": Launch', '"distance": Launch')
     assert slips(other, DRIVER.replace(b"'stop_at'", b"NAME")) == "" and slips(other, b"pass") == ""
+
+
+def test_a_parameter_for_another_program():
+    nodes = {"driver.py": DRIVER, "ranger.py": b"class Ranger(Node):\n    pass\n"}
+
+    def said(text):
+        return " ".join(each["said"] for each in launch_places(text.encode(), nodes)["launch_slips"])
+
+    wrong = RIGHT.replace('"driver.py"', '"ranger.py"')
+    assert "stop_at is given to ranger.py here, which declares none; driver.py declares it" in said(wrong)
+    assert said(RIGHT) == ""

@@ -44,6 +44,7 @@ def node(*lines):
             node("now = self.get_clock().now()", "t = self.buffer.lookup_transform('odom', 'x', now)"),
             "this very moment",
         ),
+        (node("t = self.buffer.lookup_transform(FRAME, FRAME, Time())"), "both frames of this lookup are FRAME"),
     ],
 )
 def test_what_can_never_work_is_a_slip(text, words):

@@ -59,3 +59,46 @@ def test_an_age_that_is_compared_the_wrong_way_round(old, new, found):
 )
 def test_a_lookup_whose_frames_are_exchanged(given):
     assert "comes first" in said(NODE.replace("FRAME, frame, Time()", given), "exchanged_frames")[0]
+
+
+@pytest.mark.parametrize(
+    ("limit", "found"),
+    [
+        ("0.5", False),
+        ("5.0", False),
+        ("1e10", True),
+        ("2_000_000_000", True),
+        ("float('inf')", True),
+        ("math.inf", True),
+        ("given()", False),
+    ],
+)
+def test_a_limit_that_no_age_comes_near(limit, found):
+    words = said(f"OLDEST = {limit}\n{NODE}", "any_age")
+    assert bool(words) == found and all("the limit OLDEST =" in each for each in words)
+
+
+def test_a_limit_in_nanoseconds_is_none():
+    in_nanoseconds = NODE.partition("def drive")[0].replace(".nanoseconds / 1e9", ".nanoseconds")
+    assert not said(f"OLDEST = 5e8\n{in_nanoseconds}", "any_age")
+    assert said(f"OLDEST = 1e17\n{in_nanoseconds}", "any_age")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "found"),
+    [
+        ("        return\n", "", True),
+        ("        return\n", "        pass\n", True),
+        ("        return\n", "    else:\n        self.fresh = scan\n", False),
+        ("        return\n", "        self.stop()\n        scan = None\n", False),
+    ],
+)
+def test_an_old_message_that_is_only_reported(old, new, found):
+    words = said(NODE.replace(old, new), "any_age")
+    assert bool(words) == found and all("only reports an old message" in each for each in words)
+
+
+@pytest.mark.parametrize(("limit", "found"), [("0.02", True), ("0.1", True), ("0.2", False), ("0", False)])
+def test_a_limit_that_nearly_every_age_passes(limit, found):
+    words = said(f"OLDEST = {limit}\n{NODE}", "young_age")
+    assert bool(words) == found and all(f"the limit OLDEST = {limit} in" in each for each in words)

@@ -101,6 +101,16 @@ def test_the_first_thing_wrong_is_told(found, change, words):
     assert [word for word in words if word not in finding.measured] == [], finding.measured
 
 
+@pytest.mark.parametrize(
+    ("gz_topic", "words"),
+    [("/lidar", "the one that does stands in the entry of /imu/data"), ("/imu", "the entry of /imu/data (bridge.yaml")],
+)
+def test_the_topic_of_another_entry_is_told(found, gz_topic, words):
+    other = SCAN | {"ros_topic": "/imu/data", "gz_topic": gz_topic, "source": "bridge.yaml:20"}
+    finding = found(SCAN | {"gz_topic": "/imu"}, other)
+    assert not finding.passed and words in finding.measured and "line 20" in finding.measured, finding.measured
+
+
 def test_a_topic_that_names_its_world_exists_in_that_world_only(found):
     clock = CLOCK | {"gz_topic": "/world/bay/clock"}
     finding = found(clock, wanted=CLOCK)

@@ -333,6 +333,13 @@ def test_the_command_without_simulated_time_is_named(record, changes, words):
     assert kind(record(facts=facts), Table(PARAMETERS["node"], "check 'it'", "parameter")).explanation == words
 
 
+def test_a_default_world_without_a_folder(record):
+    said = "world file '{}' was not found as a path"
+    recording = record(facts={"declared": [{"file": "a.py", "line": 1, "name": "world", "default": "yard.sdf"}]})
+    assert "str(Path(__file__).parent / 'yard.sdf')" in simulator_fault(said.format("yard.sdf"), recording)
+    assert simulator_fault(said.format("empty.sdf"), recording) == ""
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [

@@ -77,6 +77,7 @@ LOOKS = {
     "slow scans": lambda robot: scanning.few_scans(robot, 5.0),
     "classic": scanning.of_gazebo_classic,
     "tilted": scanning.tilted,
+    "enclosed": scanning.enclosed,
 }
 
 
@@ -152,6 +153,7 @@ ROLL = "-1.570796 0 0"
         ("slow scans", [("<update_rate>10", "<update_rate>1")], "<update_rate> of the lidar is 1 Hz"),
         ("classic", [("gpu_lidar", "ray")], "of type ray, which Gazebo Classic had"),
         ("tilted", [('"0 0 0.2"', '"0 0 0.2" rpy="0 0.3 0"')], "tilted by 17 degrees"),
+        ("enclosed", [('"0 0 0.2"', '"0 0 0.09"')], "the lidar is inside of base: a sensor stands at the origin"),
     ],
 )
 def test_a_fault_is_named(built, look, changes, words):

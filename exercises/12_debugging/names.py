@@ -1,0 +1,41 @@
+"""Why the two ends of the distance have different names; `checks.py` hands over the ends and the remappings."""
+
+
+def of_a_remapping(rules, ends, sends, takes):
+    """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
+    for each in rules:
+        space = f"/{each['namespace']}" if each["namespace"] else ""
+        old, new = (name if name.startswith("/") else f"{space}/{name}" for name in (each["from"], each["to"]))
+        for end in ends:
+            used, other = end["topic"], {sends: takes, takes: sends}.get(end["topic"])
+            if other is None or end["node"].rpartition("/")[0] != space:
+                continue
+            place = f"{each['file']}, line {each['line']}"
+            if new == other and old != used:
+                means = "" if each["from"] == old else f", which means {old} in the namespace {space or '/'}"
+                return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
+            if (old, new) == (other, used):
+                return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
+            if old == new == used and each["to"].startswith("/"):
+                return f"{place}: this remapping changes nothing, because {each['from']!r} already means {new} here"
+            if space and new == used and not each["to"].startswith("/"):
+                return (
+                    f"{place}: the new name {each['to']!r} in the remapping has no slash at its beginning, so it means "
+                    f"{new}; the other node uses {other}"
+                )
+    return ""
+
+
+def of_a_node(ends, topics):
+    """Return why a topic has the name of a node, or of its namespace, in front."""
+    for end in ends:
+        namespace = end["node"].rpartition("/")[0]
+        for topic in sorted(topics):
+            if topic.startswith(f"{end['node']}/"):
+                return f"{topic} begins with the name of the node {end['node']}, and the other side's name does not"
+            if end["topic"] == topic and namespace and topic.startswith(f"{namespace}/"):
+                return (
+                    f"{end['node']} lives in the namespace {namespace}, and a name without a slash at its beginning is "
+                    "put into it"
+                )
+    return ""
