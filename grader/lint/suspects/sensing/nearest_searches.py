@@ -29,7 +29,7 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
             others = [each for each in stores.get(name, []) if each[2] not in list(ast.walk(node))]
             if name.startswith("self.") and others and all(each[0] == "__init__" for each in others):
                 yield (
-                    node.lineno,  # type: ignore[attr-defined]
+                    node.lineno,
                     "nearest range",
                     f"{name} is the smallest range of all scans since the start, because nothing sets it back: begin "
                     "each scan with math.inf",
