@@ -40,7 +40,7 @@ def test_a_sleep_that_keeps_the_node_from_answering_is_named_with_its_line():
     slip = {
         "file": "driver.py",
         "line": 9,
-        "said": "time.sleep(0.5) in the callback on_scan: meanwhile it hears nothing",
+        "said": "time.sleep(0.5) in the callback on_scan",
     }
     facts = {"nodes": ["/driver"], "parameters_set": [FACT | {"outcome": "no answer"}], "slips": [slip]}
     assert "callbacks waits: line 9: time.sleep(0.5) in the callback" in parameter_not_set(None, facts)
