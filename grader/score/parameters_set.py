@@ -44,7 +44,7 @@ def parameter_not_set(recording: Recording, facts: dict[str, Any]) -> str:
 
 def _sleep(facts: dict[str, Any]) -> str:
     """Say which line sleeps in a callback, if a slip in the file is that; empty if none is."""
-    found = (each for each in facts.get("slips", []) if "sleep" in each["said"])
+    found = (each for each in facts.get("slips", []) if "sleep" in each["said"] and "callback" in each["said"])
     return next((f": line {each['line']}: {each['said']}" for each in found), "")
 
 

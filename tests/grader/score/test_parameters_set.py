@@ -34,3 +34,13 @@ def test_a_result_that_refuses_is_named_with_its_line():
     slip = {"file": "driver.py", "line": 7, "said": "SetParametersResult() refuses the new value"}
     facts = {"nodes": ["/driver"], "parameters_set": [FACT | {"outcome": "refused"}], "slips": [slip]}
     assert "without a reason: line 7: SetParametersResult() refuses" in parameter_not_set(None, facts)
+
+
+def test_a_sleep_that_keeps_the_node_from_answering_is_named_with_its_line():
+    slip = {
+        "file": "driver.py",
+        "line": 9,
+        "said": "time.sleep(0.5) in the callback on_scan",
+    }
+    facts = {"nodes": ["/driver"], "parameters_set": [FACT | {"outcome": "no answer"}], "slips": [slip]}
+    assert "callbacks waits: line 9: time.sleep(0.5) in the callback" in parameter_not_set(None, facts)

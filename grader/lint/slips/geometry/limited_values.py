@@ -39,6 +39,8 @@ def value_as_limit(tree: ast.AST) -> Iterator[Place]:
                 continue
             if function is CLIP and open_names == ["value"]:
                 continue  # `limits.py` says that its limits are exchanged
+            if len(names) > 2 and sum(numbers.values()) != 0:
+                continue  # a constant may well be limited by something that changes: only -1.5 and 1.5 are limits
             if len(names) == 2 and not _either_sign(arguments[open_names[0]], locals_of.get(id(call), {})):
                 continue
             first = f" (line {function.lineno})" if function is not CLIP else ""

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name
 
 LEAST, MOST = 0.3, 2.5  # [m] ranges below and beyond which a node may leave out
+WIDE_ENDS, WIDE = 2, 0.7  # limits of a sector, and how far apart they are at least [rad]
+PARAMETER = re.compile(r"get_parameter\(['\"]distance['\"]\)\.value$")
 
 
 def _steers(tree: ast.Module) -> bool:
@@ -29,7 +32,7 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
             others = [each for each in stores.get(name, []) if each[2] not in list(ast.walk(node))]
             if name.startswith("self.") and others and all(each[0] == "__init__" for each in others):
                 yield (
-                    node.lineno,  # type: ignore[attr-defined]
+                    node.lineno,
                     "nearest range",
                     f"{name} is the smallest range of all scans since the start, because nothing sets it back: begin "
                     "each scan with math.inf",
@@ -75,6 +78,7 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
     """Find a loop over the ranges that keeps each one in turn, and a use of what is left after it."""
     if not _steers(tree):
         return
+    known = named_numbers(tree)
     for function in functions(tree):
         for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
             kept = _range_of(loop)
@@ -83,6 +87,8 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
             for target, value in assigned(loop):
                 if not isinstance(target, ast.Name) or ast.unparse(value) not in kept:
                     continue
+                if not all(_is_wide(test, known) for test in _conditions(loop, target)):
+                    continue  # one ray is chosen
                 name = target.id
                 used = {id(node) for node in ast.walk(loop)}
                 inside = any(_reads(node, name) for node in ast.walk(loop))
@@ -97,6 +103,27 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
                         f"{name} = {ast.unparse(value)} is done for each ray that is valid, so after the loop it is "
                         f"the last of them, not the nearest: do it only if {ast.unparse(value)} < {name}",
                     )
+
+
+def _conditions(loop: ast.For, target: ast.expr) -> Iterator[ast.expr]:
+    for node in ast.walk(loop):
+        if isinstance(node, ast.If) and any(each is target for each in ast.walk(node)):
+            yield node.test
+
+
+def _is_wide(test: ast.expr, known: dict[str, int | float]) -> bool:
+    """Say whether a condition surely holds for many rays: it asks whether they are valid, or for a wide sector."""
+    for node in ast.walk(test):
+        if isinstance(node, ast.Call) and last_name(node.func) not in ("isfinite", "isinf", "isnan"):
+            return False
+        if isinstance(node, ast.Compare):
+            sides = [node.left, *node.comparators]
+            numbers = [value for each in sides if (value := number(each, known)) is not None]
+            limits = any(isinstance(each, ast.Attribute) and each.attr.startswith("range_m") for each in sides)
+            wide = len(numbers) == WIDE_ENDS and abs(numbers[0] - numbers[1]) > WIDE
+            if any(isinstance(each, ast.Eq | ast.In) for each in node.ops) or not (limits or wide):
+                return False
+    return True
 
 
 def _reads(node: ast.AST, name: str) -> bool:
@@ -122,6 +149,7 @@ def left_out(tree: ast.Module) -> Iterator[Suspect]:
     if not _steers(tree):
         return
     known = named_numbers(tree)
+    parameters = {ast.unparse(name) for name, value in assigned(tree) if PARAMETER.search(ast.unparse(value))}
     for function in functions(tree):
         names = set().union(*(_range_of(loop) for loop in ast.walk(function) if isinstance(loop, ast.For)))
         names |= _compared_arrays(function)
@@ -129,7 +157,8 @@ def left_out(tree: ast.Module) -> Iterator[Suspect]:
             if ast.unparse(value) not in names:
                 continue
             metres, text = number(limit, known), ast.unparse(limit)
-            near = more and (text.endswith("distance") if metres is None else LEAST < metres < MOST)
+            wanted = text == "self.distance" or text in parameters
+            near = more and (wanted if metres is None else LEAST < metres < MOST)
             if near or (not more and metres is not None and LEAST < metres < MOST):
                 how = f"{text} = {metres:g} m" if metres is not None and not isinstance(limit, ast.Constant) else text
                 yield (

@@ -26,6 +26,10 @@ def drive(speed, turn):
     publish(speed, turn)
 
 
+def distance(speed, turn):
+    return abs(speed - turn)
+
+
 def gcd(a, b):
     return a
 
@@ -48,6 +52,9 @@ def steer(error, heading, limit):
         ("return clamp(low=-MOST, high=MOST, value=turn)", ""),
         ("return np.clip(turn, -1.5, 1.5)", ""),
         ("return np.clip(-1.5, 1.5, turn)", "it is np.clip(value, low, high)"),
+        ("return np.clip(0.5, 0.1, limit)", ""),
+        ("return clamp(0.3, 0.0, limit)", ""),
+        ("distance(turn, speed)", ""),
         ("drive(speed, turn)", ""),
         ("drive(turn, speed)", "has turn and speed in the wrong order"),
         ("drive(turn, 0.1)", ""),
