@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.slips.nodes.scan_callbacks import callbacks
-from gz_course.grader.lint.syntax import Place, Places, calls, functions, last_name, places_in
+from gz_course.grader.lint.syntax import Place, Places, called, calls, functions, last_name, places_in
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
 SPINS = frozenset({"spin", "spin_once", "spin_until_future_complete"})
@@ -198,7 +198,13 @@ def _of_a_stamp(tree: ast.AST, time: ast.expr | None) -> bool:
 
 
 def _keeps_messages(tree: ast.AST) -> bool:
-    """Return whether a function puts what it is called with into an attribute, or into a list that outlives it."""
+    """Return whether a function puts what it is called with into an attribute, or into a list that outlives it.
+
+    A timer that asks has its message from there, too.
+    """
+    timers = callbacks(tree, ("create_timer",))
+    if any(each.name in timers and called(each) & (ASKED | {"transform"}) for each in functions(tree)):
+        return True
     if callbacks(tree) & KEEPS or any(isinstance(node, ast.Await) for node in ast.walk(tree)):
         return True
     for function in functions(tree):

@@ -59,8 +59,8 @@ class _Trial:
                 return answer
             case ast.Attribute(attr="value" | "double_value") if "_parameter(" in text:
                 return LIMIT
-            case ast.Name(id=name) if name in self.names:
-                return self.names[name]
+            case ast.Name() | ast.Attribute() if text in self.names:
+                return self.names[text]
             case ast.Attribute() if text in self.known:
                 return self.value(self.known[text])
             case ast.UnaryOp(op=ast.Not(), operand=part):
@@ -102,6 +102,13 @@ class _Trial:
         self.tests.append((test, held))
         return held
 
+    def _assign(self, name: str, value: ast.expr) -> None:
+        try:
+            self.names[name] = self.value(value)
+        except _Unknown:
+            self.names.pop(name, None)
+            self.known = {each: kept for each, kept in self.known.items() if each != name}
+
     def answer(self, block: list[ast.stmt]) -> str:
         """Return what a block returns; empty if it returns nothing."""
         for statement in block:
@@ -111,9 +118,9 @@ class _Trial:
                 case ast.If(test=test, body=body, orelse=orelse):
                     if found := self.answer(body if self.tested(test) else orelse):
                         return found
-                case ast.Assign(targets=[ast.Name(id=name)], value=value):
-                    self.names[name] = self.value(value)
-                case ast.Assign(targets=[ast.Attribute()]) | ast.Expr() | ast.Pass():
+                case ast.Assign(targets=[ast.Name() | ast.Attribute() as target], value=value):
+                    self._assign(ast.unparse(target), value)
+                case ast.Expr() | ast.Pass() | ast.Global():
                     pass
                 case _:
                     raise _Unknown
