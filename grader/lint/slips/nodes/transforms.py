@@ -115,7 +115,8 @@ def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
     tried = {
         id(n) for each in ast.walk(tree) if isinstance(each, ast.Try) for part in each.body for n in ast.walk(part)
     }
-    asked, looked = [], []
+    asked: list[tuple[ast.Call, ast.expr | None]] = []
+    looked: list[tuple[ast.Call, ast.expr | None]] = []
     for call, time in _lookups(tree):
         (asked if last_name(call.func) == "can_transform" else looked).append((call, time))
     latest = [call for call, time in asked if time is not None and _is_latest(time)]
