@@ -8,7 +8,7 @@ GOALS = {
     "empty": ("a goal without waypoints", "accepts_empty"),
     "too_fast": ("a speed above max_speed", "other_limit"),
     "backwards": ("a negative speed", "accepts_backwards"),
-    "standing": ("a speed of 0", ""),
+    "standing": ("a speed of 0", "accepts_standing"),
 }
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 
@@ -25,7 +25,7 @@ def accepted(run):
         what = f"Your server accepts {' and '.join(words)}"
     if names == ["too_fast"]:
         what = f"Your server accepts {run.one('sent', 'too_fast')['speed']:g} m/s where max_speed is {limit(run):g}"
-    if said := suspect(run.recording, "accepts_all", *(about for goal in names if (about := GOALS[goal][1]))):
+    if said := suspect(run.recording, "accepts_all", *(GOALS[goal][1] for goal in names)):
         what += f": {said}"
     ends = {(run.one("result", goal) or {}).get("status") for goal in names}
     if ends == {"ABORTED"}:

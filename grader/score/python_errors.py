@@ -143,6 +143,14 @@ MEANINGS = (
     ),
     (
         re.compile(
+            r"TypeError: \w+\.((?!__|create_)\w*(?:goal|cancel|accepted|execute)\w*)\(\) missing 1 required positional "
+            r"argument: '(?!self')\w+'"
+        ),
+        "an action server calls each of its callbacks with one argument beside self, goal_callback with the goal and "
+        "the others with the goal handle: {0} asks for more",
+    ),
+    (
+        re.compile(
             r"TypeError: (?!Node\b|Publisher\b)\w+\.(?!__|create_|info|log)(\w+)\(\) missing 1 required positional "
             r"argument: '(\w+)'"
         ),

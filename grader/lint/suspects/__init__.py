@@ -16,6 +16,7 @@ from gz_course.grader.lint.suspects.actions import (
     judgements,
     patrols,
     phases,
+    tried_goals,
     waypoint_loops,
 )
 from gz_course.grader.lint.suspects.memory import ages, aliases, flags, hidden_errors, lookups, old_values, oldest
@@ -70,6 +71,7 @@ LOOKS = (
     *goals.LOOKS,
     *goal_flags.LOOKS,
     *judgements.LOOKS,
+    *tried_goals.LOOKS,
     *answers.LOOKS,
     *phases.LOOKS,
     *old_values.LOOKS,

@@ -106,6 +106,7 @@ ERRORS = (
     'TypeError: can only concatenate str (not "float") to str',
     "TypeError: descriptor '__init__' requires a 'super' object but received a 'str'",
     "TypeError: float() argument must be a string or a real number, not 'builtin_function_or_method'",
+    "TypeError: Server.on_goal() missing 1 required positional argument: 'goal'",
     "TypeError: cannot unpack non-iterable Point object",
     "TypeError: must be real number, not Parameter",
     "TypeError: must be real number, not ParameterValue",

@@ -30,6 +30,9 @@ class Handed:
     def no_message(self, message):
         pass
 
+    def on_goal(self, handle, goal):
+        pass
+
 
 @pytest.fixture(scope="module")
 def node():
@@ -70,6 +73,7 @@ MISTAKES = {
     "what follows the depth is given by its name": lambda node: node.create_subscription(String, "/a", print, 10, None),
     "create_timer(PERIOD in seconds, callback)": lambda node: node.create_timer(print, 1.0),
     "def no_message(self, message) one for a subscription": lambda node: Handed().no_message(),
+    "goal_callback with the goal and the others with the goal handle": lambda node: Handed().on_goal(1),
     "rclpy.spin(node)": lambda node: rclpy.spin(),
     "spin_once(node, timeout_sec=0.1)": lambda node: rclpy.spin_once(node, 0.1),
     "from rclpy.node import Node": lambda node: rclpy.Node,

@@ -31,8 +31,8 @@ def other_angle(tree: ast.AST) -> Iterator[Place]:
                         yield node.lineno, _said(ast.unparse(each), place)
         elif isinstance(value, ast.Subscript) and (_is_euler(value.value) or ast.unparse(value.value) in names):
             index = value.slice.value if isinstance(value.slice, ast.Constant) else None
-            if index in (0, 1) and HEADING.search(ast.unparse(target).lower()):
-                yield node.lineno, _said(ast.unparse(target), int(index))
+            if isinstance(index, int) and index in (0, 1) and HEADING.search(ast.unparse(target).lower()):
+                yield node.lineno, _said(ast.unparse(target), index)
 
 
 def _said(name: str, place: int) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.slips.nodes.scan_callbacks import callbacks
-from gz_course.grader.lint.syntax import Place, Places, calls, functions, last_name, places_in
+from gz_course.grader.lint.syntax import Place, Places, called, calls, functions, last_name, places_in
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
 SPINS = frozenset({"spin", "spin_once", "spin_until_future_complete"})
@@ -115,7 +115,8 @@ def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
     tried = {
         id(n) for each in ast.walk(tree) if isinstance(each, ast.Try) for part in each.body for n in ast.walk(part)
     }
-    asked, looked = [], []
+    asked: list[tuple[ast.Call, ast.expr | None]] = []
+    looked: list[tuple[ast.Call, ast.expr | None]] = []
     for call, time in _lookups(tree):
         (asked if last_name(call.func) == "can_transform" else looked).append((call, time))
     latest = [call for call, time in asked if time is not None and _is_latest(time)]
@@ -209,7 +210,13 @@ def _of_a_stamp(tree: ast.AST, time: ast.expr | None) -> bool:
 
 
 def _keeps_messages(tree: ast.AST) -> bool:
-    """Return whether a function puts what it is called with into an attribute, or into a list that outlives it."""
+    """Return whether a function puts what it is called with into an attribute, or into a list that outlives it.
+
+    A timer that asks has its message from there, too.
+    """
+    timers = callbacks(tree, ("create_timer",))
+    if any(each.name in timers and called(each) & (ASKED | {"transform"}) for each in functions(tree)):
+        return True
     if callbacks(tree) & KEEPS or any(isinstance(node, ast.Await) for node in ast.walk(tree)):
         return True
     for function in functions(tree):

@@ -131,6 +131,18 @@ def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
                 f"{ast.unparse(value)} is a float, and the field waypoint is an int32, which rclpy cannot send it as: "
                 "give it a whole number",
             )
+        elif field == "waypoint" and isinstance(value, ast.Name) and _has_coordinates(tree, value.id):
+            yield (
+                value.lineno,
+                "feedback",
+                f"{value.id} is a point, and the field waypoint of the feedback is an int32: the index of the waypoint",
+            )
+
+
+def _has_coordinates(tree: ast.AST, name: str) -> bool:
+    """Return whether x and y of something are read."""
+    read = {ast.unparse(each) for each in ast.walk(tree) if isinstance(each, ast.Attribute)}
+    return {f"{name}.x", f"{name}.y"} <= read
 
 
 def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:

@@ -19,10 +19,11 @@ def _turns(block: list[ast.stmt]) -> bool:
 def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
     """Yield the name of a phase, and its value in which alone the robot turns."""
     for node in (each for each in ast.walk(tree) if isinstance(each, ast.If)):
-        name, value = "", None
+        name = ""
+        value: object = None
         match node.test:
-            case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant(value=value)]):
-                name = ast.unparse(left)
+            case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant() as constant]):
+                name, value = ast.unparse(left), constant.value
             case ast.UnaryOp(ast.Not(), ast.Name() | ast.Attribute() as left):
                 name, value = ast.unparse(left), False
             case ast.Name() | ast.Attribute() as left if not _turns(node.body) and _turns(node.orelse):
@@ -34,7 +35,8 @@ def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
 def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
     """Find a phase of turning that begins once, before the loop, and that the loop only leaves."""
     for name, value in _phases(tree):
-        begins, ends = [], []
+        begins: list[tuple[ast.Assign, bool]] = []
+        ends: list[tuple[ast.Assign, bool]] = []
         for function in functions(tree):
             straight = {id(statement) for statement in function.body}
             for statement in (each for each in ast.walk(function) if isinstance(each, ast.Assign)):

@@ -96,6 +96,13 @@ def test_who_asks_for_the_newest_scan_alone_gives_the_others_up(lines, gives_up)
     assert lookups(text.encode())[0]["gives_up"] is gives_up
 
 
+def test_a_timer_that_asks_has_kept_a_point():
+    kept = node("point = PointStamped()", "self.point = [point]", "", "def ask(self):", "    t = " + ASK)
+    assert lookups(kept.encode())[0]["gives_up"]
+    timed = kept.replace("        self.waiting = []", "        self.create_timer(0.1, self.ask)")
+    assert not lookups(timed.encode())[0]["gives_up"]
+
+
 def test_a_header_of_two_messages_is_found():
     lines = ["hit.header = scan.header", "hit.header.frame_id = 'odom'"]
     assert shared_headers(node(*lines).encode()) == [{"line": 11}]

@@ -71,6 +71,11 @@ def test_a_right_server_has_none():
             "other_limit", 'limit = self.get_parameter("max_speed").value', "limit = 0.5",
             "takes the constant 0.5 for the limit",
         ),
+        ("refuses_all", "goal.speed > limit", "goal.speed < limit", "is True for a goal with two waypoints"),
+        ("refuses_all", "len(goal.waypoints) == 0", "len(goal.waypoints) > 1", "so on_goal rejects it"),
+        ("accepts_standing", "goal.speed <= 0", "goal.speed < 0", "is False for a speed of 0, so on_goal accepts it"),
+        ("accepts_backwards", "goal.speed <= 0 or", "goal.speed <= 0 and", "is False for a speed of -0.2 m/s"),
+        ("accepts_empty", "== 0:", "== -1:", "is False for a goal without waypoints"),
         ("accepts_all", "GoalResponse.REJECT", "GoalResponse.ACCEPT", "knows no answer but"),
         (
             "cancel", "            if not self.drive_to(handle, point):\n                handle.canceled()\n"

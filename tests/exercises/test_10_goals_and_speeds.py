@@ -1,0 +1,84 @@
+"""Goals that are accepted wrongly, waypoints that are passed or left over, and speeds, in patrols of `10_actions`."""
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+
+PATROLS = runpy.run_path(str(Path(__file__).with_name("test_10_actions.py")))
+Patrol, POINTS, STEP, found = (PATROLS[name] for name in ("Patrol", "POINTS", "STEP", "found"))
+
+
+def accepted(*goals, status="CANCELED", suspects=()):
+    """Return the finding on a server that accepts goals which it must reject, and ends them with a status."""
+    patrol = Patrol().feedback(np.hypot)
+    for goal in ("empty", "too_fast", "backwards", "standing"):
+        patrol.events.append((0.3, "sent", goal, {"waypoints": POINTS, "speed": 0.4}))
+        patrol.events.append((0.4, "accepted" if goal in goals else "rejected", goal, {}))
+        if goal in goals:
+            patrol.events.append((0.5, "result", goal, {"status": status, "visited": 0}))
+    patrol.facts = lambda: {"suspects": list(suspects)}
+    patrol.properties = lambda entity: {"trial_parameters": '{"parameters": {"server": {"max_speed": 0.35}}}'}
+    return found("rejects", patrol).explanation
+
+
+def test_goals_that_are_accepted_wrongly_are_named():
+    every = ("empty", "too_fast", "backwards", "standing")
+    assert accepted(*every) == "Your server accepts every goal, also those that cannot be done"
+    late = accepted(*every, status="ABORTED")
+    assert "ends them as ABORTED, which is too late: a goal is rejected in goal_callback" in late
+    assert accepted("too_fast") == "Your server accepts 0.4 m/s where max_speed is 0.35"
+    place = {"line": 9, "about": "accepts_empty", "said": "so it is"}
+    assert accepted("empty", suspects=[place]).endswith("a goal without waypoints: line 9: so it is")
+    assert "so it is" not in accepted("standing", suspects=[place])
+
+
+def test_a_patrol_that_drives_to_a_waypoint_of_the_cancelled_one():
+    def with_detour(way):
+        patrol = Patrol(way)
+        patrol.events = [each for each in patrol.events if each[2] != "patrol"]
+        for goal, points in (("patrol", [[0.0, 0.0]]), ("cancelled", [[0.0, 1.0]])):
+            patrol.events += [(0.2, "sent", goal, {"waypoints": points, "speed": 0.4}), (0.2, "accepted", goal, {})]
+            patrol.events.append((0.5, "result", goal, {"status": "CANCELED", "visited": 0}))
+        patrol.events += [(0.3, "rejected", "second", {}), (1.0, "accepted", "again", {})]
+        patrol.events.append((1.0, "sent", "again", {"waypoints": [[1.0, 0.0]], "speed": 0.4}))
+        patrol.events.append((patrol.end, "result", "again", {"status": "SUCCEEDED", "visited": 1}))
+        return found("busy", patrol)
+
+    assert "drives to (0, 1), which is a waypoint of the cancelled one" in with_detour([[0.0, 1.0], [1, 0]]).explanation
+    assert with_detour([[1.0, 0.0]]).passed
+
+
+def test_a_robot_that_drives_straight_past_a_waypoint():
+    finding = found("visits", Patrol([[1.2, 0.0], [2.2, 0.95]], status=""))
+    assert "drives straight past the waypoint" in finding.explanation, finding
+
+
+def test_a_robot_that_never_turns_again_has_a_reason_in_the_file():
+    patrol = Patrol([[2.4, 0.0]], status="")
+    patrol.facts = lambda: {"suspects": [{"line": 8, "about": "phase", "said": "so it is"}]}
+    assert "never turns towards the waypoint: line 8: so it is" in found("visits", patrol).explanation
+
+
+def test_a_server_that_drives_on_to_a_waypoint_that_was_reached():
+    patrol = Patrol([[1.2, 0.0], [2.6, 0.0]], status="").feedback(np.hypot)
+    for event in (each for each in patrol.events if each[1] == "feedback"):
+        way = patrol.way[round(event[0] / STEP)]
+        event[3].update(waypoint=0, distance=float(np.hypot(*(np.array(POINTS[0]) - way))))
+    assert "from the waypoint 0, but your server drives on to it" in found("visits", patrol).explanation
+
+
+def test_a_robot_that_drives_backwards():
+    patrol = Patrol([[-1.2, 0.0]], status="", speed=0.4)
+    for name in ("topics/cmd_vel/linear/x", "truth/robot/linear_x"):
+        patrol.signals[name] = -patrol.signals[name]
+    assert "drives backwards: linear.x of its commands is negative" in found("visits", patrol).explanation
+    patrol.signals["truth/robot/linear_x"] = patrol.signals["truth/robot/linear_x"] * -1 / 3.6
+    assert "drives backwards" in found("speed", patrol).explanation
+
+
+def test_a_unit_of_the_speed_is_told_by_the_commands_not_by_a_robot_that_is_held_up():
+    patrol = Patrol(speed=0.4 / 3.6)
+    assert "km/h" in found("speed", patrol).explanation
+    patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"] * 3.6
+    assert "km/h" not in found("speed", patrol).explanation
