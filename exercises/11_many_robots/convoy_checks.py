@@ -59,6 +59,8 @@ def in_a_row(recording, parameters):
                 f"{match[1]} is looked for in the folder in which ros2 launch is called, and not beside the launch "
                 f"file: give its full path, str(Path(__file__).parent / '{match[1]}')"
             )
+        if any("waits here" in each["said"] for each in recording.facts().get("launch_slips", [])):
+            return Finding(False, expected, "no robot came into the world")
         if not said and not any(STARTED.match(line.text) for line in recording.lines("log/student")):
             why = (
                 "no create was ever started: an action runs only if it is in the LaunchDescription, or in the list "

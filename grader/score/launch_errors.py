@@ -128,6 +128,11 @@ MEANINGS = (
         "LaunchConfiguration('NAME'), not its name in quotes",
     ),
     (
+        re.compile(r"'NoneType' object has no attribute 'perform_substitution'"),
+        "perform() got None for its context: only the function of an OpaqueFunction gets one; elsewhere the "
+        "LaunchConfiguration itself is passed, as an item of the list",
+    ),
+    (
         re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
         "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
         "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is passed",

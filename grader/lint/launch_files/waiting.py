@@ -19,7 +19,11 @@ ENDLESS = ("parameter_bridge", "robot_state_publisher")
 
 
 def waits(file: LaunchFile) -> Iterator[Place]:
-    """Find a program that Python waits for, and that ends only after the launch has gone on, or with it."""
+    """Find a program that Python waits for, and that ends only after the launch has gone on, or with it.
+
+    What a timer or an event starts may find a simulator that runs already.
+    """
+    later = any(file.calls("TimerAction", "RegisterEventHandler"))
     imported = {
         alias.asname or alias.name
         for node in file.nodes
@@ -32,6 +36,8 @@ def waits(file: LaunchFile) -> Iterator[Place]:
         words = _words(file, call.args[0])
         how = ast.unparse(call.func)
         if name := next((word for word in CREATORS if "ros_gz_sim" in words and word in words), ""):
+            if later:
+                continue
             yield (
                 call.lineno,
                 f"{how} waits here until {name} ends, and the whole launch stands still meanwhile: the simulator that "
@@ -39,6 +45,8 @@ def waits(file: LaunchFile) -> Iterator[Place]:
                 f"executable='{name}', arguments=[...])",
             )
         elif name := next((word for word in ASKING if words[:1] == ["gz"] and word in words[1:2]), ""):
+            if later:
+                continue
             yield (
                 call.lineno,
                 f"{how} calls gz {name} while the launch stands still, so the simulator that it asks is not started "

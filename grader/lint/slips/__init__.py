@@ -43,6 +43,7 @@ from gz_course.grader.lint.slips.language import (
     resets,
     results,
     sequences,
+    shared_objects,
     states,
     unreached,
 )
@@ -74,6 +75,7 @@ ROOMS = (
     sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS, limits.LOOKS, conditions.LOOKS,
     resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
     one_array.LOOKS, endless_waits.LOOKS, own_calls.LOOKS, limited_values.LOOKS, locks.LOOKS, called_once.LOOKS,
+    shared_objects.LOOKS,
 )  # fmt: skip
 
 

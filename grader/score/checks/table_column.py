@@ -86,6 +86,8 @@ def _gz_type(said: str, link: Link, facts: dict[str, Any]) -> str:
         return f"{said} is a ROS type; in Gazebo {link.gz_topic} has a type of its own, such as gz.msgs.Name"
     if "::" in said:
         return f"{said} is the name of a class in C++; Gazebo writes the type gz.msgs.Name, with dots"
+    if said.startswith("/"):
+        return f"{said} is a topic, and the column asks for the type of its messages: gz.msgs.Name"
     if not said.startswith("gz.msgs."):
         return f"{said} is not how Gazebo writes a type: gz.msgs.Name, with dots"
     if said in known:
@@ -95,6 +97,8 @@ def _gz_type(said: str, link: Link, facts: dict[str, Any]) -> str:
 
 def _gz_topic(said: str, link: Link, facts: dict[str, Any]) -> str:
     name = f"/{said.lstrip('/')}"
+    if said.startswith("gz.msgs.") or ROS_TYPE.fullmatch(said):
+        return f"{said} is a type, and the column asks for a topic of Gazebo, whose name begins with /"
     if name in facts["gz_topics"]:
         return f"{name} is a topic of Gazebo, but not the one that {link.ros_topic} is joined with"
     if name == link.ros_topic:

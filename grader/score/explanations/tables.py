@@ -6,7 +6,7 @@ value: the table is an exercise in finding them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 from gz_course.grader.score.graphs import Bridged, Link
@@ -18,12 +18,29 @@ Row = dict[str, Any]
 Pairs = Sequence[tuple[Row, Link]]
 
 
-def explain_column(column: str, pairs: Pairs, bridges: Sequence[Bridged], gz_topics: Container[str]) -> str:
+def explain_column(column: str, pairs: Pairs, bridges: Sequence[Bridged], gz_topics: Collection[str]) -> str:
     """Return the misconception behind a wrong column; `pairs` are the rows of bridged topics with the truth."""
     filled = [(row, link) for row, link in pairs if row[column]]
+    if column in ("ros_type", "gz_topic", "gz_type") and (said := exchanged_rows(column, filled)):
+        return said
     if column == "gz_topic":
-        return names_below_the_model(filled, gz_topics)
+        return names_below_the_model(filled, gz_topics) or another_model(filled, gz_topics)
     return next((said for look in LOOKS.get(column, ()) if (said := look(filled, bridges))), "")
+
+
+def exchanged_rows(column: str, pairs: Pairs) -> str:
+    """Recognise two rows of which each has in one column what belongs to the other."""
+    wrong = [(row, link) for row, link in pairs if row[column].lstrip("/") != getattr(link, column).lstrip("/")]
+    if len(wrong) != 2:
+        return ""
+    (one, first), (two, second) = wrong
+    crossed = ((one, second), (two, first))
+    if any(row[column].lstrip("/") != getattr(link, column).lstrip("/") for row, link in crossed):
+        return ""
+    return (
+        f"lines {one['line']} and {two['line']}: {one[column]} and {two[column]} are exchanged: each belongs to the "
+        "other row"
+    )
 
 
 def reversed_directions(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
@@ -54,6 +71,18 @@ def configured_directions(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
     )
 
 
+def both_ends(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
+    """Recognise that topics are said to go both ways, and no row has another fault."""
+    wrong = [(row, link) for row, link in pairs if row["direction"] != link.direction]
+    if len(wrong) < LEAST or any(row["direction"] != "BIDIRECTIONAL" for row, _ in wrong):
+        return ""
+    return (
+        f"line {wrong[0][0]['line']}: messages of {wrong[0][1].ros_topic} travel one way only, and so do those of "
+        f"{len(wrong) - 1} more rows: every topic has publishers and subscribers, and BIDIRECTIONAL is only one on "
+        "which both sides publish messages of their own"
+    )
+
+
 def names_of_ros_types(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
     """Recognise Gazebo types that are made of the names of the ROS types."""
     wrong = [(row, link) for row, link in pairs if row["gz_type"] != link.gz_type]
@@ -81,7 +110,7 @@ def names_of_gz_types(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
     )
 
 
-def names_below_the_model(pairs: Pairs, gz_topics: Container[str]) -> str:
+def names_below_the_model(pairs: Pairs, gz_topics: Collection[str]) -> str:
     """Recognise topics that do not exist in Gazebo because they were put below the model or the world."""
     wrong = [(row, link) for row, link in pairs if f"/{row['gz_topic'].lstrip('/')}" != link.gz_topic]
     for start, words in (("/model/", "the model's"), ("/world/", "the world's")):
@@ -98,6 +127,22 @@ def names_below_the_model(pairs: Pairs, gz_topics: Container[str]) -> str:
     return ""
 
 
+def another_model(pairs: Pairs, gz_topics: Collection[str]) -> str:
+    """Recognise topics below a model that this world does not have."""
+    wrong = [(row, link) for row, link in pairs if f"/{row['gz_topic'].lstrip('/')}" != link.gz_topic]
+    parts = [(f"/{row['gz_topic'].lstrip('/')}".split("/"), link.gz_topic.split("/")) for row, link in wrong]
+    names = {said[2] for said, _ in parts if len(said) > 3}
+    if len(names) != 1 or any(topic.startswith(f"/model/{name}/") for name in names for topic in gz_topics):
+        return ""
+    if any(said[:2] != ["", "model"] or right[:2] != said[:2] or said[3:] != right[3:] for said, right in parts):
+        return ""
+    row = wrong[0][0]
+    return (
+        f"line {row['line']}: {row['gz_topic']} begins with the name of a model, {names.pop()}, and no model of this "
+        "world has that name: gz topic -l shows the topics with the name of its robot"
+    )
+
+
 def parts_of_gazebo(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
     """Recognise sensors and systems of Gazebo in place of the node that publishes what comes from there."""
     nodes = {node for _, link in pairs for node in link.publisher}
@@ -112,7 +157,7 @@ def parts_of_gazebo(pairs: Pairs, bridges: Sequence[Bridged]) -> str:
 
 
 LOOKS: dict[str, tuple[Callable[[Pairs, Sequence[Bridged]], str], ...]] = {
-    "direction": (reversed_directions, one_direction, configured_directions),
+    "direction": (reversed_directions, one_direction, configured_directions, both_ends),
     "gz_type": (names_of_ros_types,),
     "ros_type": (names_of_gz_types,),
     "publisher": (parts_of_gazebo,),

@@ -25,6 +25,7 @@ from gz_course.grader.score.launch_errors import launch_meaning
             "compare in quotes",
         ),
         ("'/submission/watch.py' cannot be started: it is not executable (chmod", "cmd=[sys.executable, PATH"),
+        ("AttributeError: 'NoneType' object has no attribute 'perform_substitution'", "got None for its context"),
         ("launch configuration 'word' does not exist", "declares word"),
         ("b.launch.py:3: invalid condition expression: 'paused'; true, false, 1 or 0 is expected", "not its name in"),
         ("AttributeError: 'LaunchConfiguration' object has no attribute 'endswith'", "is no text and has no endswith"),

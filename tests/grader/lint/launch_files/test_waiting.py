@@ -37,3 +37,9 @@ def generate_launch_description():
 def test_a_program_that_a_launch_file_waits_for(command, words):
     found = [each["said"] for each in launch_places(FILE.replace("COMMAND", command).encode())["launch_slips"]]
     assert (words in "\n".join(found)) and bool(words) == bool(found), found
+
+
+def test_what_an_event_starts_may_find_a_simulator():
+    command = "subprocess.run(['ros2', 'run', 'ros_gz_sim', 'create'])"
+    later = FILE.replace("COMMAND", command).replace("[OpaqueFunction(", "[TimerAction(period=2.0, actions=[]), O(")
+    assert not any("waits here" in each["said"] for each in launch_places(later.encode())["launch_slips"])

@@ -130,6 +130,8 @@ def test_a_row_too_many_or_too_few(found, rows, words):
         ("gz_topic", "/scan", ["is what ROS calls it"]),
         ("gz_topic", "/imu", ["not the one that /scan is joined with"]),
         ("gz_topic", "/lidarr", ["Gazebo has no topic /lidarr", "look at its spelling"]),
+        ("gz_topic", "gz.msgs.LaserScan", ["is a type, and the column asks for a topic"]),
+        ("gz_type", "/lidar", ["is a topic, and the column asks for the type"]),
         ("gz_type", "sensor_msgs/msg/LaserScan", ["is a ROS type"]),
         ("gz_type", "gz/msgs/LaserScan", ["is not how Gazebo writes a type", "gz.msgs.Name"]),
         ("gz_type", "gz.msgs.Laserscan", ["does not carry", "look at its spelling"]),

@@ -50,6 +50,17 @@ def explained(column, *said):
         ("gz_topic", ("/world/w/clock", None, None, None), ""),
         ("gz_topic", ("/laser", None, None, None), ""),
         ("publisher", ("patrol",) * 4, ""),
+        ("gz_topic", ("/imu", "/lidar", None, None), "lines 1 and 2: /imu and /lidar are exchanged"),
+        ("gz_type", ("gz.msgs.IMU", "gz.msgs.LaserScan", None, None), "are exchanged"),
+        ("gz_topic", ("/imu", "/joints", "/lidar", None), ""),
+        ("gz_topic", (None, None, None, "/model/robot/cmd"), "no model of this world has that name"),
+        ("gz_topic", (None, None, None, "/model/robot/cmd_vel"), ""),
+        (
+            "direction",
+            ("BIDIRECTIONAL", "BIDIRECTIONAL", None, "BIDIRECTIONAL"),
+            "line 1: messages of /scan travel one",
+        ),
+        ("direction", ("BIDIRECTIONAL", "BIDIRECTIONAL", None, None), ""),
     ],
 )
 def test_a_column_with_one_misconception(column, said, words):

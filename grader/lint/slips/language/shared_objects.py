@@ -1,0 +1,63 @@
+"""One object, or one attribute of a class, that keeps what belongs to two: what one callback stores, the other gets."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Place, assigned, calls
+
+
+def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.front = self.own` where methods of both are the callbacks of two subscriptions."""
+    listening = {
+        ast.unparse(each.value)
+        for call, name in calls(tree)
+        if name == "create_subscription"
+        for each in (*call.args, *(word.value for word in call.keywords))
+        if isinstance(each, ast.Attribute) and ast.unparse(each.value).startswith("self.")
+    }
+    values: dict[str, list[tuple[int, str]]] = {}
+    for target, value in assigned(tree):
+        values.setdefault(ast.unparse(target), []).append((target.lineno, ast.unparse(value)))
+    for name in sorted(listening & values.keys()):
+        line, other = values[name][-1]
+        if other in listening and other != name and len(values.get(other, ())) == 1:
+            yield (
+                line,
+                f"{name} is {other} here, one object with two names, so both subscriptions store into it: make one "
+                "for each",
+            )
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and len(node.targets) > 1 and isinstance(node.value, ast.Call):
+            names = [ast.unparse(each) for each in node.targets if ast.unparse(each) in listening]
+            if len(names) > 1 and all(len(values[each]) == 1 for each in names):
+                yield (
+                    node.lineno,
+                    f"{' and '.join(names)} are one object with two names, so both subscriptions store into it: make "
+                    "one for each",
+                )
+
+
+def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
+    """Find `Robot.pose = ...` in a method of Robot that gets a message, where the file makes two objects of it."""
+    made = [name for _, name in calls(tree)]
+    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+        if made.count(owner.name) < 2:
+            continue
+        for method in (node for node in owner.body if isinstance(node, ast.FunctionDef)):
+            given = {each.arg for each in method.args.args[1:]}
+            for target, value in assigned(method):
+                whole = isinstance(target, ast.Attribute) and ast.unparse(target.value)
+                if whole != owner.name or not given & {ast.unparse(each) for each in ast.walk(value)}:
+                    continue
+                attribute = ast.unparse(target).rpartition(".")[2]
+                yield (
+                    target.lineno,
+                    f"{ast.unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of "
+                    f"{owner.name} share it and the last message of any of them counts: self.{attribute} is one for "
+                    "each",
+                )
+
+
+LOOKS = (one_object_for_two, kept_by_the_class)

@@ -1,0 +1,53 @@
+"""Objects and attributes of classes that two subscriptions share."""
+
+import pytest
+
+from gz_course.grader.lint.slips import slips
+
+RIGHT = """\
+class Robot:
+    def __init__(self):
+        self.pose = None
+
+    def update(self, message):
+        self.pose = message.pose.pose
+
+
+class Follower(Node):
+    def __init__(self):
+        super().__init__("follower")
+        self.own = Robot()
+        self.front = Robot()
+        self.create_subscription(Odometry, "odom", self.own.update, 10)
+        self.create_subscription(Odometry, "front/odom", self.front.update, 10)
+        self.create_timer(0.1, self.steer)
+
+    def steer(self):
+        print(self.own.pose, self.front.pose)
+
+
+rclpy.spin(Follower())
+"""
+
+
+def said(text):
+    return [each["said"] for each in slips(text.encode())]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("self.front = Robot()", "self.front = self.own", "self.front is self.own here, one object with two names"),
+        ("self.own = Robot()\n        self.front = Robot()", "self.own = self.front = Robot()", "are one object with"),
+        ("self.pose = message", "Robot.pose = message", "all 2 objects of Robot share it"),
+    ],
+)
+def test_what_two_subscriptions_share(old, new, words):
+    assert said(RIGHT) == []
+    assert any(words in each for each in said(RIGHT.replace(old, new)))
+
+
+def test_what_may_be_shared():
+    assert said(RIGHT.replace("self.pose = message", "Robot.count = 1\n        self.pose = message")) == []
+    once = RIGHT.replace("self.front = Robot()", "self.front = Other()").replace("self.pose = m", "Robot.pose = m")
+    assert not any("share" in each for each in said(once))
