@@ -81,6 +81,10 @@ def test_the_distance_to_the_wall(measured, words):
         ((DISTANCE, np.clip(1.5 * (DISTANCE - 1.2), 0.1, 0.6), 1.2), "it drives on, with 0.10 m/s or more, where"),
         ((*driven(DISTANCE, DISTANCE, gain=0.4)[:2], 0.8), "which has lost its fraction"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: that is its default, and"),
+        (driven(DISTANCE, DISTANCE, gain=0.2), "to 0.00 m from the wall, not to the 1 m that stop_at says: it is not"),
+        ((DISTANCE + 1.0, np.full(60, 0.1), 1.0), "every command is 0.10 m/s, which is too slow: 1.01 m are left"),
+        ((DISTANCE - 0.1, np.where(DISTANCE > 1.1, 0.6, -0.6), 1.0), "every command is 0.60 m/s, ahead or back"),
+        ((DISTANCE + 0.2, 0.8 * (DISTANCE - 1.0) ** 2, 1.0), "it has come to rest with 0.21 m left"),
     ],
 )
 def test_the_commands(given, words):
