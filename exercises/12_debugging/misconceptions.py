@@ -67,16 +67,19 @@ def of_a_distance(measured, truth, mount):
         return f"every distance is {measured[-1]:.2f} m, however far the wall is"
     error = measured - truth
     usual = float(np.median(error))
-    same = np.mean(np.abs(error - usual) < CLOSE) >= SHARE
+    same = np.mean(np.abs(error - usual) < CLOSE / 2) >= SHARE
+    worst = int(np.argmax(np.abs(error)))
+    if np.ptp(truth) > 1.0 and np.all(measured == np.round(measured)):
+        return f"every distance is a whole number of metres, {measured[worst]:.0f} m where it is {truth[worst]:.2f} m"
     if same and np.ptp(truth) > 4 * CLOSE and abs(usual) > 2 * CLOSE:
         return f"every distance is {abs(usual):.2f} m too {'small' if usual < 0 else 'large'}, near the wall and far"
     if np.mean(error < -CLOSE) >= SHARE:
         return (
-            f"the distance is too small, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away; nothing stands "
-            "ahead that is nearer than the wall"
+            f"the distance is too small, {measured[worst]:.2f} m where the wall is {truth[worst]:.2f} m away; nothing "
+            "stands ahead that is nearer than the wall"
         )
     if np.mean(error > CLOSE) >= SHARE:
-        return f"the distance is too large, {measured[-1]:.2f} m where the wall is {truth[-1]:.2f} m away"
+        return f"the distance is too large, {measured[worst]:.2f} m where the wall is {truth[worst]:.2f} m away"
     return ""
 
 

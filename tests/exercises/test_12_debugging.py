@@ -51,6 +51,8 @@ def test_the_place_of_the_lidar(seen, sign, words):
         (np.full(40, 0.8), "every distance is 0.80 m"),
         (TRUTH * 0.5, "nearer than the wall"),
         (TRUTH * 1.5, "too large"),
+        (np.floor(TRUTH), "every distance is a whole number of metres"),
+        (TRUTH * 0.97, "the distance is too small, 2.91 m where the wall is 3.00 m away"),
         (TRUTH - 1.0, "every distance is 1.00 m too small, near the wall and far"),
         (TRUTH + 0.5, "every distance is 0.50 m too large"),
         (TRUTH[:3] * 9, ""),
