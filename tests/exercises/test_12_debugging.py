@@ -51,6 +51,8 @@ def test_the_place_of_the_lidar(seen, sign, words):
         (np.full(40, 0.8), "every distance is 0.80 m"),
         (TRUTH * 0.5, "nearer than the wall"),
         (TRUTH * 1.5, "too large"),
+        (np.floor(TRUTH), "every distance is a whole number of metres"),
+        (TRUTH * 0.97, "the distance is too small, 2.91 m where the wall is 3.00 m away"),
         (TRUTH - 1.0, "every distance is 1.00 m too small, near the wall and far"),
         (TRUTH + 0.5, "every distance is 0.50 m too large"),
         (TRUTH[:3] * 9, ""),
@@ -81,6 +83,10 @@ def test_the_distance_to_the_wall(measured, words):
         ((DISTANCE, np.clip(1.5 * (DISTANCE - 1.2), 0.1, 0.6), 1.2), "it drives on, with 0.10 m/s or more, where"),
         ((*driven(DISTANCE, DISTANCE, gain=0.4)[:2], 0.8), "which has lost its fraction"),
         ((*driven(DISTANCE, DISTANCE - 1.0)[:2], 0.8), "that stop_at says: that is its default, and"),
+        (driven(DISTANCE, DISTANCE, gain=0.2), "to 0.00 m from the wall, not to the 1 m that stop_at says: it is not"),
+        ((DISTANCE + 1.0, np.full(60, 0.1), 1.0), "every command is 0.10 m/s, which is too slow: 1.01 m are left"),
+        ((DISTANCE - 0.1, np.where(DISTANCE > 1.1, 0.6, -0.6), 1.0), "every command is 0.60 m/s, ahead or back"),
+        ((DISTANCE + 0.2, 0.8 * (DISTANCE - 1.0) ** 2, 1.0), "it has come to rest with 0.21 m left"),
     ],
 )
 def test_the_commands(given, words):

@@ -50,6 +50,20 @@ def axes_of_create(file: LaunchFile) -> Iterator[Place]:
             )
 
 
+def created_twice(file: LaunchFile) -> Iterator[Place]:
+    """Find two actions with create that give a robot the same name, and that no condition keeps apart."""
+    seen: dict[str, int] = {}
+    for call in file.calls("Node"):
+        given = file.value(argument(call, "arguments"))
+        if text(argument(call, "executable", 0)) != "create" or argument(call, "condition"):
+            continue
+        words = _flat(given.elts) if isinstance(given, ast.List | ast.Tuple) else []
+        name = next((text(value) for option, value in pairwise(words) if text(option) == "-name"), "")
+        if name and name in seen:
+            yield call.lineno, f"create makes a second {name} here, beside that of line {seen[name]}: one is enough"
+        seen.setdefault(name, call.lineno)
+
+
 def world_of_create(file: LaunchFile) -> Iterator[Place]:
     """Find `-world NAME` with a name that is written down, in a file whose argument says which world runs."""
     declared = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")}
@@ -62,4 +76,4 @@ def world_of_create(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-LOOKS = (axes_of_create, world_of_create)
+LOOKS = (axes_of_create, created_twice, world_of_create)

@@ -213,6 +213,18 @@ def test_what_is_no_python_has_no_places():
     assert launch_places(b"def (") == {}
 
 
+@pytest.mark.parametrize(
+    ("second", "found"), [("'robot'", True), ("'other'", False), ("'robot'], condition=[a", False)]
+)
+def test_a_robot_that_is_created_twice(second, found):
+    text = (
+        "LaunchDescription([\n    Node(executable='create', arguments=['-name', 'robot', *('-x', x)]),\n"
+        f"    Node(executable='create', arguments=['-name', {second}]),\n])\n"
+    )
+    said = [place["said"] for place in launch_places(text.encode())["launch_slips"]]
+    assert said == (["create makes a second robot here, beside that of line 2: one is enough"] if found else [])
+
+
 def test_remappings_among_the_words_of_a_command_are_listed():
     text = (
         "Node(namespace='arm', arguments=['a.py', '--ros-args', '-r', 'wall:=/wall', '-r', '__node:=a'])\n"
