@@ -11,7 +11,15 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.actions import goal_flags, goals, patrols, waypoint_loops
 from gz_course.grader.lint.suspects.memory import ages, aliases, hidden_errors, lookups, old_values, oldest
-from gz_course.grader.lint.suspects.planning import forgetting, straight_goals, way_ends, ways
+from gz_course.grader.lint.suspects.planning import (
+    closed_gates,
+    forgetting,
+    margins,
+    own_places,
+    straight_goals,
+    way_ends,
+    ways,
+)
 from gz_course.grader.lint.suspects.sensing import (
     bearings,
     bias_use,
@@ -28,9 +36,11 @@ from gz_course.grader.lint.suspects.steering import (
     feedback,
     followers,
     headings,
+    made_poses,
     sleeps,
     smoothing,
     stale_parameters,
+    standstills,
     steering_units,
     turning_signs,
 )
@@ -69,6 +79,11 @@ LOOKS = (
     *straight_goals.LOOKS,
     *way_ends.LOOKS,
     *turning_signs.LOOKS,
+    *closed_gates.LOOKS,
+    *margins.LOOKS,
+    *own_places.LOOKS,
+    *made_poses.LOOKS,
+    *standstills.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -35,6 +35,9 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
                     line,
                     f"{name} is never {text!r}: line {given[name][near]} sets it to {near!r}, which is spelt otherwise",
                 )
+            elif text not in given[name] and name.startswith("self.") and unasked and len(given[name]) > 1:
+                values = ", ".join(repr(each) for each in list(given[name])[:4])
+                yield line, f"{name} is never {text!r}, so this condition never holds: it is set to {values}"
 
 
 def _alike(text: str, names: list[str]) -> str:
