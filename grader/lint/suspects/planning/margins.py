@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name
 
 CELL = 0.1  # [m]
 NARROW, WIDE = 2, 5  # [cells] at most, at least
@@ -48,7 +49,7 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
                 continue
             line = next(line for line, each in reaches if each == name)
             if name not in names:
-                value = number(ast.parse(name, mode="eval").body, known)
+                value = number(ast.parse(name, mode="eval").body, known) or _by_cells(function, name, known)
                 if value is not None:
                     yield _made_at(function, name) or line, name, value
                 continue
@@ -77,6 +78,15 @@ def _made_at(function: ast.FunctionDef, name: str) -> int:
     """Return the line of a function that assigns a name; 0 if it does not."""
     made = (each for each in ast.walk(function) if isinstance(each, ast.Assign))
     return next((each.lineno for each in made if name in [ast.unparse(target) for target in each.targets]), 0)
+
+
+def _by_cells(function: ast.FunctionDef, name: str, known: dict[str, Number]) -> Number | None:
+    """Return the number that a function assigns to a name, if a resolution whose value is not written is a cell's."""
+    for target, value in assigned(function):
+        if ast.unparse(target) == name:
+            text = re.sub(r"(?:\w+\.)*(?:resolution|cell_size)\b", f"{CELL}", ast.unparse(value))
+            return number(ast.parse(text, mode="eval").body, known)
+    return None
 
 
 def _of_walls(call: ast.Call) -> bool:

@@ -45,8 +45,13 @@ def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
                         op=ast.Add(),
                         right=ast.BinOp(left=other, op=ast.Mult(), right=_),
                     ):
-                        weights = number(one, known), number(other, known)
-                        if None not in weights and abs(sum(weights) - 1) < 1e-6 and ast.unparse(target) in _used(value):
+                        a, b = number(one, known), number(other, known)
+                        if (
+                            a is not None
+                            and b is not None
+                            and abs(a + b - 1) < 1e-6
+                            and ast.unparse(target) in _used(value)
+                        ):
                             yield (
                                 node.lineno,
                                 "pose",
