@@ -99,7 +99,7 @@ def arcs(marked, solid, ends, said):
     """
     wrong, wide = marked & ~solid, grown(ends)
     free = (said >= 0) & (said <= FREE) & ~solid
-    if wrong.sum() < 30 or wide[wrong].mean() < 0.8:
+    if wrong.sum() < 15 or wide[wrong].mean() < 0.8:
         return ""
     if (free.any() and wide[free].mean() > wide[wrong].mean() - 0.2) or marked[ends & ~solid].mean() < 0.2:
         return ""

@@ -264,7 +264,7 @@ def explored(recording, parameters):
         more = DRIVING.stands(recording)
         words += f" ({more})" if more else ": it saw what can be seen from its start"
     elif not words and there < wanted:
-        words = DRIVING.slow_or_lost(recording) or standing(recording)
+        words = DRIVING.slow_or_lost(recording) or DRIVING.standing(recording)
         words = words or "the robot did not come to every corner in time"
     return Finding(False, expected, measured, explanation=words)
 
@@ -286,15 +286,6 @@ def not_as_it_was_seen(recording, said, every):
     if between.mean() > EARLY:
         return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"
     return ""
-
-
-def standing(recording):
-    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
-    way = recording.signal("truth/robot/distance")
-    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
-    if last > 0.7 * recording.end_ns / 1e9:
-        return ""
-    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
 
 
 def reachable(recording):
@@ -373,7 +364,17 @@ def why(recording, said, scan):
     words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
     if words := words or DRIVING.suspect(recording, "counter", "pose"):
         return words
-    return ARRANGED.arcs(marked, solid, cells(hits(scan, which=~scan.hit)) > 0, said)
+    return first_arcs(recording, solid)
+
+
+def first_arcs(recording, solid):
+    """Return that the first map with walls has them where rays without a hit end; empty if it has not."""
+    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
+        said, at = grid(recording, number)
+        if said is not None and (said >= OCCUPIED).sum() >= FEWEST:
+            scan = scans(recording, at)
+            return ARRANGED.arcs(said >= OCCUPIED, solid, cells(hits(scan, which=~scan.hit)) > 0, said)
+    return ""
 
 
 def drawn_elsewhere(recording):

@@ -6,6 +6,7 @@ from gz_course.grader.score.floor import grown
 from gz_course.grader.score.suspects import suspect
 
 AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was driven at
+MOVED = 0.3  # [m]
 SLOW = 0.15  # [m/s]
 TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
@@ -112,6 +113,15 @@ def slow_or_lost(recording):
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
         return f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m, to and fro"
     return ""
+
+
+def standing(recording):
+    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
+    way = recording.signal("truth/robot/distance")
+    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
+    if last > 0.7 * recording.end_ns / 1e9:
+        return ""
+    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
 
 
 def how_it_turned(recording):

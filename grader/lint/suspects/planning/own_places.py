@@ -52,6 +52,15 @@ def corner_minus_point(tree: ast.AST) -> Iterator[Suspect]:
     """Find `(BOTTOM - y) / RESOLUTION`, which is negative for every point in the map."""
     for node in ast.walk(tree):
         match node:
+            case ast.BinOp(left=ast.BinOp(left=point, op=ast.Div() | ast.FloorDiv()), op=ast.Sub(), right=corner):
+                text, other = ast.unparse(corner), ast.unparse(point)
+                if (CORNER_X.search(text) and X.search(other)) or (CORNER_Y.search(text) and Y.search(other)):
+                    yield (
+                        node.lineno,
+                        "cell",
+                        f"{ast.unparse(node)[:60]} subtracts the corner [m] from a number of cells: subtract first, "
+                        f"then divide, ({other} - {text}) / resolution",
+                    )
             case ast.BinOp(left=ast.BinOp(left=corner, op=ast.Sub(), right=point), op=ast.Div() | ast.FloorDiv()):
                 text, other = ast.unparse(corner), ast.unparse(point)
                 x, y = bool(CORNER_X.search(text)), bool(CORNER_Y.search(text))

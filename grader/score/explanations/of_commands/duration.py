@@ -130,5 +130,7 @@ def begins_late(drive: Drive) -> str:
     said = f"{before} commands of zero came before" if before else "nothing was sent before"
     whole = ""
     if begin >= 0.9 * drive.seconds:
-        whole = " the drive and the stand are the wrong way round" if before else " a timer fires first after its period"
+        whole = (
+            " the drive and the stand are the wrong way round" if before else " a timer fires first after its period"
+        )
     return f"the robot was first driven at {begin:.2f} s ({said}){':' + whole if whole else ''}"

@@ -95,6 +95,7 @@ frontier = grown(grid == UNKNOWN, 1)
         ("self.index(self.pose[1], self.pose[0])", "takes (x, y)"),
         ("self.index(p.y, p.x)", "takes (x, y)"),
         ("(self.y0 - y) / self.resolution", "the point minus the corner"),
+        ("int(y / self.resolution - self.y0)", "subtract first"),
         ("self.x0 + (row + 0.5) * self.resolution", "x grows with the column"),
         ("self.index(self.pose[0], self.pose[1])", ""),
         ("self.index(p.x, p.y)", ""),
