@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gz_course.grader.score.floor import Grid
+from gz_course.grader.score.floor import Grid, grown
 
 RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM = 0.1, 100, 80, -5.0, -4.0  # [m], [cells], [cells], [m], [m]
 OCCUPIED, FREE = 65, 25  # at least, at most
@@ -56,19 +56,54 @@ def wrong_values(said, fits):
     return ""
 
 
-def moved(marked, solid):
-    """Yield by how many cells the walls of a map are beside those that stand there, and the map without it."""
-    shifts = [(x, y) for x in range(-4, 5) for y in range(-4, 5) if x or y]
-    x, y = max(
-        shifts, key=lambda by: (solid[np.roll(marked, (-by[1], -by[0]), (0, 1))].mean(), -abs(by[0]) - abs(by[1]))
+def moved(marked, solid, start=(0.0, 0.0, 0.0)):
+    """Yield by how many cells the walls of a map are beside those that stand there, and the map without it.
+
+    `start` (x, y, heading) is the first pose of the robot: a map that is moved by it was drawn from the start.
+    """
+    x, y = best_shift(marked, solid)
+    if not x and not y:
+        return
+    words = (
+        f"all walls of your map are about {x} cells too far along x and {y} along y: the column of a point is "
+        "floor((x + 5) / 0.1), its row floor((y + 4) / 0.1)"
     )
-    yield (
-        (
-            f"all walls of your map are about {x} cells too far along x and {y} along y: the column of a point is "
-            "floor((x + 5) / 0.1), its row floor((y + 4) / 0.1)"
-        ),
-        np.roll(marked, (-y, -x), (0, 1)),
-    )
+    if max(abs(x + start[0] / RESOLUTION), abs(y + start[1] / RESOLUTION)) < 1.6 and abs(x) + abs(y) > 4:
+        words = (
+            f"all walls of your map are about {x} cells too far along x and {y} along y, which is where they are seen "
+            f"from the robot's start, ({start[0]:.1f}, {start[1]:.1f}): the first position is subtracted, or positions "
+            "are counted from 0, but /odom is in the frame odom already"
+        )
+    out = np.zeros_like(marked)
+    rows, columns = np.nonzero(marked)
+    inside = (rows >= y) & (rows < HEIGHT + y) & (columns >= x) & (columns < WIDTH + x)
+    out[rows[inside] - y, columns[inside] - x] = True
+    yield words, out
+
+
+def best_shift(marked, solid):
+    """Return by how many cells (x, y) a map must be moved back to have most of its walls where walls are."""
+    size = (2 * HEIGHT, 2 * WIDTH)
+    spectrum = np.fft.rfft2(marked, size) * np.conj(np.fft.rfft2(solid, size))
+    counts = np.roll(np.fft.irfft2(spectrum, size), (HEIGHT, WIDTH), axis=(0, 1))
+    rows, columns = np.mgrid[-HEIGHT:HEIGHT, -WIDTH:WIDTH]
+    near = np.round(counts) - 1e-3 * (np.abs(rows) + np.abs(columns))
+    row, column = np.unravel_index(int(near.argmax()), near.shape)
+    return int(column) - WIDTH, int(row) - HEIGHT
+
+
+def arcs(marked, solid, ends, said):
+    """Return that the ends of rays without a hit are drawn as walls; empty if they are not.
+
+    Such ends lie nearly everywhere after a while: they must explain the wrong cells, and not the free ones as well.
+    """
+    wrong, wide = marked & ~solid, grown(ends)
+    free = (said >= 0) & (said <= FREE) & ~solid
+    if wrong.sum() < 15 or wide[wrong].mean() < 0.8:
+        return ""
+    if (free.any() and wide[free].mean() > wide[wrong].mean() - 0.2) or marked[ends & ~solid].mean() < 0.2:
+        return ""
+    return "rays without a hit are drawn as walls at range_max: inf is no hit"
 
 
 def scaled(points):

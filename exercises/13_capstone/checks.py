@@ -116,8 +116,13 @@ def walls(recording, parameters):
         return Finding(True, expected, measured)
     words = why(recording, said, scan) or behind_hits(recording, said, scans(recording, at))
     if not (words or layout(recording, parameters).explanation or known_before(recording)):
-        words = DRIVING.unclear(said, wanted) or DRIVING.walls_missing(
-            said, wanted, earlier_walls(recording), DRIVING.suspect(recording, "forgets")
+        maps = recording.arrays(f"{MAP}/data")
+        words = (
+            DRIVING.unclear(said, wanted)
+            or DRIVING.unchanged(*maps)
+            or DRIVING.walls_missing(
+                said, wanted, earlier_walls(recording), DRIVING.suspect(recording, "forgets", "fades")
+            )
         )
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
@@ -259,7 +264,7 @@ def explored(recording, parameters):
         more = DRIVING.stands(recording)
         words += f" ({more})" if more else ": it saw what can be seen from its start"
     elif not words and there < wanted:
-        words = DRIVING.slow_or_lost(recording) or standing(recording)
+        words = DRIVING.slow_or_lost(recording) or DRIVING.standing(recording)
         words = words or "the robot did not come to every corner in time"
     return Finding(False, expected, measured, explanation=words)
 
@@ -276,20 +281,11 @@ def not_as_it_was_seen(recording, said, every):
     if (values >= OCCUPIED).mean() > EARLY:
         return f"{(values >= OCCUPIED).mean():.0%} of the cells that rays passed are occupied in the map: they are free"
     if (values < 0).mean() > EARLY and (said < 0).mean() > 0.999:
-        return DRIVING.suspect(recording, "forgets") or "all cells of the map are unknown"
+        return DRIVING.suspect(recording, "forgets", "cell") or "all cells of the map are unknown"
     between = (values > FREE) & (values < OCCUPIED)
     if between.mean() > EARLY:
         return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"
     return ""
-
-
-def standing(recording):
-    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
-    way = recording.signal("truth/robot/distance")
-    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
-    if last > 0.7 * recording.end_ns / 1e9:
-        return ""
-    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
 
 
 def reachable(recording):
@@ -351,7 +347,7 @@ def why(recording, said, scan):
         for words, changed in ARRANGED.scaled(np.concatenate([hits(scan), scan.pose[:, :2]])):
             if drawn.any() and grown(changed)[drawn].mean() > FITS and changed.sum() < 0.5 * hit.sum():
                 return words
-        return DRIVING.hardly_any(recording, said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]])
+        return DRIVING.hardly_any(recording, said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]], hit)
     for words, changed in ARRANGED.rearranged(marked):
         if fits(changed):
             return words
@@ -362,17 +358,22 @@ def why(recording, said, scan):
     ):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
-    for words, changed in ARRANGED.moved(marked, solid):
+    for words, changed in ARRANGED.moved(marked, solid, scan.pose[0]):
         if solid[changed].mean() >= TRUE > 0.85 > solid[marked].mean():
             return words
     words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
     if words := words or DRIVING.suspect(recording, "counter", "pose"):
         return words
-    wrong = marked & ~solid
-    if wrong.sum() < FEWEST:
-        return ""
-    if grown(cells(hits(scan, which=~scan.hit)) > 0)[wrong].mean() >= FITS:
-        return "rays without a hit are drawn as walls at range_max: inf is no hit"
+    return first_arcs(recording, solid)
+
+
+def first_arcs(recording, solid):
+    """Return that the first map with walls has them where rays without a hit end; empty if it has not."""
+    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
+        said, at = grid(recording, number)
+        if said is not None and (said >= OCCUPIED).sum() >= FEWEST:
+            scan = scans(recording, at)
+            return ARRANGED.arcs(said >= OCCUPIED, solid, cells(hits(scan, which=~scan.hit)) > 0, said)
     return ""
 
 

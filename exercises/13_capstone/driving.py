@@ -6,6 +6,7 @@ from gz_course.grader.score.floor import grown
 from gz_course.grader.score.suspects import suspect
 
 AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was driven at
+MOVED = 0.3  # [m]
 SLOW = 0.15  # [m/s]
 TURNS = 4.0  # of the whole robot, that are more than a way needs
 FITS = 0.8
@@ -19,6 +20,7 @@ PLANNING = (
     "way",
     "search",
     "straight",
+    "standstill",
 )  # suspects in how a way is found and followed
 
 
@@ -48,16 +50,29 @@ def stands(recording):
     ahead, turning = commands(recording)
     if not len(ahead):
         return "no command came on /cmd_vel"
-    if said := suspect(recording, "forgets") or sideways(recording):
+    if said := suspect(recording, "forgets") or sideways(recording) or backwards(recording):
         return said
     tests = [f"line {each['line']}, `{each['code']}`" for each in recording.facts().get("before_speeds", [])]
     never = f"; one of the conditions before it never held: {'; '.join(tests[-2:])}" if tests else ""
+    still = suspect(recording, "flag", "cell", "wide", "way")
     if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
-        return f"all of its {len(ahead)} commands were 0{never}"
+        return still or f"all of its {len(ahead)} commands were 0{never}"
     if not np.abs(ahead).max() > 0.01:
         said = suspect(recording, "sleep", "pose", "counter", "sign", "cell", "heading", "angle", "ray")
-        return said or f"linear.x was 0 in every command{never}"
+        return still or said or f"linear.x was 0 in every command{never}"
     return ""
+
+
+def backwards(recording):
+    """Return that the robot is commanded to drive backwards nearly always when it drives; empty if it is not."""
+    ahead, _ = commands(recording)
+    moving = ahead[np.abs(ahead) > 0.02]
+    if len(moving) < 10 or np.mean(moving < 0) < 0.8:
+        return ""
+    return (
+        f"linear.x is negative in {np.mean(moving < 0):.0%} of the commands that drive, such as {np.median(moving):.2f}"
+        " m/s: the robot drives backwards, away from where it looks; positive is ahead"
+    )
 
 
 def sideways(recording):
@@ -81,9 +96,9 @@ def slow_or_lost(recording):
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
-    if aside := sideways(recording):
+    if aside := sideways(recording) or backwards(recording):
         return aside
-    planning = suspect(recording, *PLANNING)
+    planning = suspect(recording, *PLANNING) or suspect(recording, "heading", "angle") or suspect(recording, "wide")
     if turns > TURNS and way < 0.1 * seconds:
         said = planning or suspect(recording, "heading", "angle", "ray", "wrap") or how_it_turned(recording)
         return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
@@ -98,6 +113,15 @@ def slow_or_lost(recording):
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
         return f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m, to and fro"
     return ""
+
+
+def standing(recording):
+    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
+    way = recording.signal("truth/robot/distance")
+    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
+    if last > 0.7 * recording.end_ns / 1e9:
+        return ""
+    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
 
 
 def how_it_turned(recording):
@@ -154,7 +178,9 @@ def touched(recording, radius, at, place, there=""):
     kinds = "sleep", "forgets", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
     if said := suspect(recording, *kinds, "straight"):
         return said
-    if said := sideways(recording) or drives_while_turning(recording):
+    if said := sideways(recording) or backwards(recording) or drives_while_turning(recording):
+        return said
+    if abs(bearing) > AHEAD and (said := suspect(recording, "narrow")):
         return said
     if "does not show it" in there:
         return f"{there}, so no way keeps away from it: see that hits stay in the map that it drives by"
@@ -162,8 +188,8 @@ def touched(recording, radius, at, place, there=""):
     if abs(bearing) > AHEAD:
         side = "left" if bearing > 0 else "right"
         return (
-            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead{more}: the way "
-            f"that it took leaves less room than the robot's radius, {radius:g} m"
+            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead{more}: its way "
+            f"leaves less room than the robot's radius, {radius:g} m, or it does not keep to the cells of its way"
         )
     return f"it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time{more}"
 
@@ -182,8 +208,19 @@ def drives_while_turning(recording):
     )
 
 
-def hardly_any(recording, said, maps):
-    """Return what is odd about a map with hardly any walls, given all maps that came."""
+def unchanged(times, maps):
+    """Return since when all maps that came [ns] are the same; empty if one of the second half differs."""
+    same = next((n for n in range(len(maps) - 1, 0, -1) if not np.array_equal(maps[n], maps[n - 1])), 0)
+    if len(maps) < 6 or same > 0.5 * len(maps):
+        return ""
+    return (
+        f"no cell of the map has changed since {times[same] / 1e9:.1f} s: scans that came later are not drawn, so the "
+        "line that draws a scan stands behind a condition that no longer holds, or its result is not what is published"
+    )
+
+
+def hardly_any(recording, said, maps, hit=None):
+    """Return what is odd about a map with hardly any walls, given all maps that came, and the cells that were hit."""
     if forgotten := suspect(recording, "forgets"):
         return forgotten
     if len(maps) > 3 and all(np.array_equal(maps[0], each) for each in maps):
@@ -191,6 +228,12 @@ def hardly_any(recording, said, maps):
         return (
             f"all {len(maps)} maps are the same, {kind}: data is made once and published again and again, so nothing "
             "that is scanned gets into it; make new data for each publish()"
+        )
+    shown = said[hit] if hit is not None else np.empty(0)
+    if len(shown) >= 30 and ((shown >= 0) & (shown <= 25)).mean() > 0.5:
+        return (
+            "hardly any cell is occupied, and most walls that were hit are free: rays make the cells in which they end "
+            "free again; leave the last cell of a ray out of its way, or let a hit count for more than many passes"
         )
     return "hardly any cell is occupied"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Mapping
+from math import ceil, floor
 
 Number = int | float
 OPERATIONS = {
@@ -13,7 +14,12 @@ OPERATIONS = {
     ast.Div: lambda a, b: a / b,
     ast.FloorDiv: lambda a, b: a // b,
 }
-ROUNDINGS: dict[str, Callable[[Number], Number]] = {"int": int, "float": float, "round": round}
+ROUNDINGS: dict[str, Callable[[Number], Number]] = {
+    "int": int,
+    "float": float,
+    "round": round,
+    **{f"{owner}{name}": each for owner in ("", "math.", "np.") for name, each in (("ceil", ceil), ("floor", floor))},
+}
 LARGEST = 1e18  # no product of names is computed beyond
 
 
@@ -59,9 +65,9 @@ def number(node: ast.AST | None, names: Mapping[str, Number]) -> Number | None:
             return result if abs(result) <= LARGEST else None
         case ast.BinOp(left=ast.Constant(value=10), op=ast.Pow(), right=ast.Constant(value=int(power))) if power <= 18:
             return 10**power if power >= 0 else 10.0**power
-        case ast.Call(func=ast.Name(id=name), args=[inner_node], keywords=[]) if name in ROUNDINGS:
+        case ast.Call(func=func, args=[inner_node], keywords=[]) if ast.unparse(func) in ROUNDINGS:
             value = number(inner_node, names)
-            return None if value is None else ROUNDINGS[name](value)
+            return None if value is None else ROUNDINGS[ast.unparse(func)](value)
         case ast.Name() | ast.Attribute():
             name = ast.unparse(node)
             return names.get(name, names.get(name.rpartition(".")[2]) if name.count(".") == 1 else None)

@@ -15,6 +15,7 @@ from gz_course.grader.record.reading import Poses, Recording
 from gz_course.grader.score.true_pose import heading, true_poses
 
 SCAN = "topics/scan"
+STOOD = 0.3  # [m] a robot that has driven less stands where it began
 Array = np.ndarray
 
 
@@ -153,6 +154,13 @@ def grown(marked: Array) -> Array:
     return np.asarray(np.logical_or.reduce(parts))
 
 
+def from_the_first(pose: Array) -> Array:
+    """Return poses (n, 3) as the first of them sees them."""
+    c, s = np.cos(pose[0, 2]), np.sin(pose[0, 2])
+    x, y = (pose[:, :2] - pose[0, :2]).T
+    return np.stack([c * x + s * y, c * y - s * x, pose[:, 2] - pose[0, 2]], 1)
+
+
 def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
     """Yield common mistakes with the pose and with angles, and the points (n, 2) [m] at which they draw the hits."""
     pose, angles, heading = scan.pose, scan.angles, scan.pose[:, 2:]
@@ -160,11 +168,26 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
     def other(x: float = 1.0, turn: float = 1.0) -> Array:
         return pose * (x, x, turn)
 
+    stood = len(pose) > 0 and bool(np.ptp(pose[:, :2], axis=0).max() < STOOD)  # a start subtracted looks the same
+    ignored = "ignored, or counted from the robot's start" if stood else "ignored"
     yield "the robot's heading is ignored: walls turn with the robot", hits(scan, other(turn=0))
-    yield "the robot's position is ignored: every scan is drawn around (0, 0)", hits(scan, other(x=0))
+    yield f"the robot's position is {ignored}: every scan is drawn around (0, 0)", hits(scan, other(x=0))
     yield (
-        "the robot's pose is ignored: every scan is drawn around (0, 0), as the robot sees it",
+        f"the robot's pose is {ignored}: every scan is drawn around (0, 0), as the robot sees it",
         hits(scan, other(0, 0)),
+    )
+    if len(pose) and not stood:
+        yield (
+            "the robot's first position is subtracted: the map is drawn around its start, not around (0, 0)",
+            hits(scan, pose - (*pose[0, :2], 0)),
+        )
+        yield (
+            "the robot's first pose is subtracted: the map is drawn as it is seen from its start",
+            hits(scan, from_the_first(pose)),
+        )
+    yield (
+        "the lidar is taken for one that is about 0.2 m ahead of the robot's middle: it is above it",
+        hits(scan, pose + 0.2 * np.stack([np.cos(pose[:, 2]), np.sin(pose[:, 2]), 0 * pose[:, 2]], 1)),
     )
     yield "the robot's heading is subtracted instead of added", hits(scan, other(turn=-1))
     for words, direction in (
@@ -175,6 +198,14 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ("the angles of a scan are converted from degrees, but they are in radians", heading + np.radians(angles)),
         ("the heading is converted from degrees, but it is in radians", np.radians(heading) + angles),
         ("the first ray is taken for the one ahead: its angle is angle_min", heading + angles - angles[0]),
+        (
+            "the number of a ray is taken for its angle in degrees: it is angle_min + number * angle_increment",
+            heading + np.radians(np.arange(len(angles))),
+        ),
+        (
+            "the rays are taken to be one degree apart: they are angle_increment apart",
+            heading + angles[0] + np.radians(np.arange(len(angles))),
+        ),
         ("the rays are drawn in the opposite order: angles grow to the left", heading - angles),
         ("orientation.z is taken for the heading: it is the sine of half of it", np.sin(heading / 2) + angles),
         ("the heading is half of what it is: it is 2 * atan2(orientation.z, orientation.w)", heading / 2 + angles),

@@ -12,6 +12,7 @@ from gz_course.grader.score.floor import Grid, Shapes
 
 FOLDER = Path(__file__).parents[2] / "exercises/13_capstone"
 DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
+ARRANGED = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
 NOW = np.arange(0.0, 36.0, 0.2)
 
 
@@ -158,10 +159,9 @@ def test_walls_that_were_there_before_and_are_free_now():
 
 
 def test_a_map_that_is_moved():
-    arranged = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
     _, solid, _ = grids()
     solid[20:60, 10] = True
-    ((words, changed),) = arranged.moved(np.roll(solid, (1, 2), (0, 1)), solid)
+    ((words, changed),) = ARRANGED.moved(np.roll(solid, (1, 2), (0, 1)), solid)
     assert "2 cells too far along x and 1 along y" in words and (changed == solid).all()
 
 
@@ -223,9 +223,8 @@ def test_scattered_hits_do_not_explain_the_walls_of_a_map(monkeypatch):
 
 
 def test_cells_by_another_factor():
-    arranged = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
     points = np.array([[-2.5, 1.5], [-2.4, 1.5]])
-    drawn = {words.split(":")[0]: np.argwhere(cells).tolist() for words, cells in arranged.scaled(points)}
+    drawn = {words.split(":")[0]: np.argwhere(cells).tolist() for words, cells in ARRANGED.scaled(points)}
     assert drawn["metres are taken for cells"] == [[5, 2]]
     assert drawn["the distance from the origin is multiplied by the resolution"] == [[0, 0]]
 
@@ -259,3 +258,46 @@ def test_walls_in_a_wrong_place_are_no_walls_known_by_heart(monkeypatch):
     for points, by_heart in ((hit, False), (hit[:20], True)):
         monkeypatch.setitem(known, "hits", lambda *given, points=points: points)
         assert bool(checks["known_before"](run)) == by_heart
+
+
+def test_a_map_that_is_moved_by_the_start_of_the_robot():
+    solid = np.zeros((80, 100), dtype=bool)
+    solid[20:50, 15] = solid[20, 15:60] = solid[50, 30:40] = True
+    ((words, changed),) = ARRANGED.moved(np.roll(solid, (-17, 25), (0, 1)), solid, (-2.5, 1.7, 0.4))
+    assert "the first position is subtracted" in words and np.array_equal(changed, solid)
+    ((words, _),) = ARRANGED.moved(np.roll(solid, (-17, 25), (0, 1)), solid, (1.0, 1.0, 0.4))
+    assert "25 cells too far along x and -17 along y: the column" in words
+    assert list(ARRANGED.moved(solid, solid)) == []
+
+
+def test_ends_of_rays_without_a_hit_explain_walls_only_where_they_are():
+    solid, ends, said = (np.zeros((80, 100), dtype=bool), np.zeros((80, 100), dtype=bool), np.full((80, 100), -1.0))
+    solid[10], ends[40, 20:80], said[20:45, 20:80] = True, True, 0
+    arcs = ARRANGED.arcs
+    assert "inf is no hit" in arcs(solid | ends, solid, ends, said)
+    ends[20:45, 20:80] = True  # they lie everywhere
+    assert arcs(solid | (said == 0), solid, ends, said) == ""
+
+
+def test_a_map_that_does_not_change():
+    times, maps = np.arange(10) * 10**9, [np.full(8, number) for number in (0, 1, *[2] * 8)]
+    assert "since 2.0 s" in DRIVING.unchanged(times, maps)
+    assert DRIVING.unchanged(times, [np.full(8, number) for number in range(10)]) == ""
+
+
+def test_hits_that_are_free_in_a_map_without_walls():
+    said, hit = np.zeros((80, 100)), np.zeros((80, 100), dtype=bool)
+    hit[5, :50] = True
+    assert "make the cells in which they end free again" in DRIVING.hardly_any(recording(), said, [], hit)
+    assert DRIVING.hardly_any(recording(), said, []) == "hardly any cell is occupied"
+
+
+def test_a_robot_that_drives_backwards():
+    assert "drives backwards" in DRIVING.slow_or_lost(recording(ahead=-0.4 + 0 * NOW))
+    assert DRIVING.backwards(recording(ahead=0.4 + 0 * NOW)) == ""
+
+
+def test_a_side_that_is_touched_by_a_narrow_margin_is_looked_up():
+    narrow = {"line": 5, "about": "narrow", "said": "1 cell"}
+    assert DRIVING.touched(recording(suspects=[narrow]), 0.18, 0, (0.0, 0.18)) == "line 5: 1 cell"
+    assert "straight at it" in DRIVING.touched(recording(suspects=[narrow]), 0.18, 0, (0.2, 0.0))

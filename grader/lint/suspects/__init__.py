@@ -20,7 +20,15 @@ from gz_course.grader.lint.suspects.actions import (
     waypoint_loops,
 )
 from gz_course.grader.lint.suspects.memory import ages, aliases, flags, hidden_errors, lookups, old_values, oldest
-from gz_course.grader.lint.suspects.planning import forgetting, straight_goals, way_ends, ways
+from gz_course.grader.lint.suspects.planning import (
+    closed_gates,
+    forgetting,
+    margins,
+    own_places,
+    straight_goals,
+    way_ends,
+    ways,
+)
 from gz_course.grader.lint.suspects.sensing import (
     bearings,
     bias_use,
@@ -39,10 +47,12 @@ from gz_course.grader.lint.suspects.steering import (
     feedback,
     followers,
     headings,
+    made_poses,
     sleeps,
     smoothing,
     speed_limits,
     stale_parameters,
+    standstills,
     steering_units,
     stopping_flags,
     turning_signs,
@@ -91,6 +101,11 @@ LOOKS = (
     *ray_parts.LOOKS,
     *way_ends.LOOKS,
     *turning_signs.LOOKS,
+    *closed_gates.LOOKS,
+    *margins.LOOKS,
+    *own_places.LOOKS,
+    *made_poses.LOOKS,
+    *standstills.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -67,7 +67,7 @@ def _axis(node: ast.expr) -> str:
         left, right = _axis(node.left), _axis(node.right)
         return left if left == right else ""
     if isinstance(node, ast.Name | ast.Attribute):
-        match = re.search(r"(?:^|[._]|d|delta)([xy])$", ast.unparse(node))
+        match = re.search(r"(?:^[a-z]?|[._]|d|delta)([xy])$", ast.unparse(node))
         return match[1] if match else ""
     return ""
 

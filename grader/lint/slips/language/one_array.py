@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
 
 MAKES = frozenset({"zeros", "ones", "full", "empty", "array", "zeros_like", "list", "dict", "set"})
 CHANGES = frozenset({"append", "extend", "add", "update", "fill", "insert"})
@@ -28,6 +28,27 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
                     node.lineno,
                     f"{ast.unparse(node)[:70]} gives one array two names, so what is added to {both[0]} is in "
                     f"{both[1]}, too: make each of its own",
+                )
+
+
+def one_local(tree: ast.AST) -> Iterator[Place]:
+    """Find `misses = hits = set()` in a function that adds to both by different calls."""
+    for function in functions(tree):
+        for node in (each for each in ast.walk(function) if isinstance(each, ast.Assign) and len(each.targets) > 1):
+            names = [each.id for each in node.targets if isinstance(each, ast.Name)]
+            new = {ast.unparse(one) for one, _ in assigned(function) if one not in node.targets}
+            added = [
+                name
+                for name in names
+                if any(
+                    each in CHANGES and ast.unparse(call.func).startswith(f"{name}.") for call, each in calls(function)
+                )
+            ]
+            if _makes(node.value) and len(added) > 1 and not new & set(names):
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:70]} gives one collection two names, so what is added to {added[0]} is in "
+                    f"{added[1]}, too: make each of its own",
                 )
 
 
@@ -67,4 +88,4 @@ def _parts_set(function: ast.FunctionDef) -> set[str]:
     return found
 
 
-LOOKS = (one_array,)
+LOOKS = (one_array, one_local)

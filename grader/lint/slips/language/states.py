@@ -1,4 +1,4 @@
-"""Names of states that are set in one spelling and asked for in another."""
+"""States that are set in one spelling and asked for in another, or asked for and never set."""
 
 from __future__ import annotations
 
@@ -22,11 +22,15 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
             given.setdefault(name, {}).setdefault(value.value, target.lineno)
         else:
             unknown.add(name)
+    elsewhere = {name.rpartition(".")[2] for name in given.keys() | unknown if not name.startswith("self.")}
     asked: dict[str, dict[str, int]] = {}
+    equal: set[tuple[str, str]] = set()
     for node in ast.walk(tree):
         match node:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[ast.Constant(value=str(text))]):
                 asked.setdefault(ast.unparse(left), {}).setdefault(text, node.lineno)
+                if isinstance(node.ops[0], ast.Eq):
+                    equal.add((ast.unparse(left), text))
     for name in given.keys() & asked.keys() - unknown:
         for text, line in asked[name].items():
             unasked = [each for each in given[name] if each not in asked[name] and len(each) >= FEWEST]
@@ -35,6 +39,11 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
                     line,
                     f"{name} is never {text!r}: line {given[name][near]} sets it to {near!r}, which is spelt otherwise",
                 )
+            elif text in given[name] or (name, text) not in equal or name.rpartition(".")[2] in elsewhere:
+                continue
+            elif name.startswith("self.") and given[name].keys() - asked[name].keys():
+                values = ", ".join(repr(each) for each in list(given[name])[:4])
+                yield line, f"{name} is never {text!r}, so this condition never holds: it is set to {values}"
 
 
 def _alike(text: str, names: list[str]) -> str:

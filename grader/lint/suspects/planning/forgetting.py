@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
+from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.suspects.steering.sleeps import reached
-from gz_course.grader.lint.syntax import Suspect, assigned, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions
 
+FADES = 0.998  # a factor at which half is left after a minute or more
 EMPTIES = frozenset({"clear", "fill"})
+TAKEN_OUT = frozenset({"clear", "remove", "pop", "popleft"})
 
 
 def forgets(tree: ast.AST) -> Iterator[Suspect]:
@@ -49,6 +53,62 @@ def forgets(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def fades(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an array all of which a callback makes smaller each time: `self.odds *= 0.97`."""
+    known = named_numbers(tree)
+    arrays = {ast.unparse(one) for one, value in assigned(tree) if _holds_much(value)}
+    for function in reached(tree):
+        for node in ast.walk(function):
+            match node:
+                case ast.AugAssign(target=ast.Attribute() as whole, op=ast.Mult(), value=factor):
+                    given = number(factor, known)
+                case ast.Assign(targets=[ast.Attribute() as whole], value=value):
+                    given = next((each for each in _factors(value, ast.unparse(whole), known)), None)
+                case _:
+                    continue
+            name = ast.unparse(whole)
+            if name in arrays and given is not None and 0 < given < FADES:
+                yield (
+                    node.lineno,
+                    "fades",
+                    f"{ast.unparse(node)[:60]} multiplies all of {name} by {given:g} in each {function.name}, so "
+                    "what is not seen again fades: change only the cells that are seen",
+                )
+
+
+def short_memory(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a deque of a few scans, which a callback of scans fills and from which a map is drawn."""
+    callbacks = set(re.findall(r"LaserScan, .*?self\.(\w+)", ast.unparse(tree)))
+    filled = {
+        ast.unparse(call.func.value)
+        for function in functions(tree)
+        for call, name in calls(function)
+        if name == "append" and isinstance(call.func, ast.Attribute)
+        if function.name in callbacks or re.search(r"scan", ast.unparse(call.args[0] if call.args else call))
+    }
+    emptied = {ast.unparse(call.func).rpartition(".")[0] for call, name in calls(tree) if name in TAKEN_OUT}
+    looped = {ast.unparse(each.iter) for each in ast.walk(tree) if isinstance(each, ast.For | ast.comprehension)}
+    for target, value in assigned(tree):
+        name = ast.unparse(target)
+        limit = next((each.value for each in getattr(value, "keywords", []) if each.arg == "maxlen"), None)
+        if limit is not None and name in (filled & looped) - emptied:
+            yield (
+                target.lineno,
+                "fades",
+                f"{ast.unparse(value)} keeps the last scans only ({ast.unparse(limit)}), so the map forgets what was "
+                "seen before: count the hits and passes of every scan once, and keep the counts",
+            )
+
+
+def _factors(value: ast.expr, name: str, known: dict[str, Number]) -> Iterator[Number]:
+    for node in ast.walk(value):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+            for one, other in ((node.left, node.right), (node.right, node.left)):
+                factor = number(one, known)
+                if ast.unparse(other) == name and factor is not None:
+                    yield factor
+
+
 def _holds_much(value: ast.expr) -> bool:
     """Return whether a value is an array, a long list or a dictionary."""
     if isinstance(value, ast.Call):
@@ -61,4 +121,4 @@ def _of_zeros(value: ast.expr, name: str) -> bool:
     return ast.unparse(value).endswith((f"zeros_like({name})", f"full_like({name}, -1)"))
 
 
-LOOKS = (forgets,)
+LOOKS = (forgets, fades, short_memory)

@@ -63,4 +63,19 @@ def _makes(function: ast.FunctionDef, way: str) -> bool:
     )
 
 
-LOOKS = (ends_of_a_way,)
+def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `self.way.pop()` after a test of `self.way[0]`: the last cell is taken out, not the one that is reached."""
+    for node in (each for each in ast.walk(tree) if isinstance(each, ast.While | ast.If)):
+        for call, name in (pair for part in node.body for pair in calls(part)):
+            way = ast.unparse(call.func).rpartition(".")[0]
+            whole = ast.unparse(node.test)
+            if name == "pop" and not call.args and f"{way}[0]" in whole and f"{way}[-1]" not in whole:
+                yield (
+                    call.lineno,
+                    "way",
+                    f"{ast.unparse(call)} takes the last cell out of the way, and `{whole[:50]}` is about the first "
+                    f"one: {way}.pop(0) takes out what is reached",
+                )
+
+
+LOOKS = (ends_of_a_way, other_end_taken)

@@ -128,5 +128,9 @@ def begins_late(drive: Drive) -> str:
     begin = drive.pushes[0][0]
     before = int(np.sum(drive.times < begin))
     said = f"{before} commands of zero came before" if before else "nothing was sent before"
-    whole = " the drive and the stand are the wrong way round" if begin >= 0.9 * drive.seconds else ""
+    whole = ""
+    if begin >= 0.9 * drive.seconds:
+        whole = (
+            " the drive and the stand are the wrong way round" if before else " a timer fires first after its period"
+        )
     return f"the robot was first driven at {begin:.2f} s ({said}){':' + whole if whole else ''}"

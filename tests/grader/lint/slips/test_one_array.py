@@ -46,3 +46,9 @@ def test_two_names_of_a_number_are_none():
 def test_nanoseconds_alone_are_found():
     assert "sec is read nowhere" in said("scan.header.stamp.sec + ", "")[0]
     assert said("taken = scan.header.stamp.sec + scan.header.stamp.nanosec / 1e9", "out.nanosec = scan.nanosec") == []
+
+
+def test_two_names_of_one_set_in_a_function_are_found():
+    text = "def f():\n    a = b = set()\n    a.add(1)\n    b.update([2])\n"
+    assert "what is added to a is in b" in slips(text.encode())[0]["said"]
+    assert slips(text.replace("b.update([2])", "print(b)").encode()) == []

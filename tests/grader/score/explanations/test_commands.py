@@ -74,6 +74,7 @@ WRONG = {
     "half of what is asked for": drive(lambda now, calls: GO if now - TICK < 2.5 else STOP),
     "where 5 s are asked for": drive(lambda now, calls: GO if now - TICK < 3.5 else STOP),
     "the wrong way round": drive(lambda now, calls: STOP if now - TICK < 5.0 else GO),
+    "a timer fires first after its period": drive(lambda now, calls: None if now - TICK < 5.0 else GO),
     "first driven at 2.25 s": drive(lambda now, calls: right(now - 2.0, calls) if now > 2.1 else None),
     "alternates between 0.00 and 0.50": drive(lambda now, calls: GO if calls % 2 else STOP),
     "two publish() calls": drive(lambda now, calls: [GO, STOP] if now < 5.2 else STOP),

@@ -1,0 +1,92 @@
+"""Suspects in places and cells: arguments in the other order, the corner minus the point, x made of a row."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.lint.syntax import Suspect, calls, functions
+
+CORNER_X = re.compile(
+    r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
+)
+CORNER_Y = re.compile(
+    r"\b(?:bottom|oy|y0|min_?y|y_?min|origin_?y|y_?origin|corner_?y|origin\.position\.y)\b", re.IGNORECASE
+)
+ROW, COLUMN = re.compile(r"\b(?:rows?|r)\b"), re.compile(r"\b(?:columns?|cols?|c)\b")
+X, Y = re.compile(r"(?:^|[._])[a-z]?x$"), re.compile(r"(?:^|[._])[a-z]?y$")
+PAIRS = ((X, Y), (re.compile(r"^(?:row|r|cy|j)$"), re.compile(r"^(?:col|column|c|cx|i)$")))
+
+
+def other_order(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `self.index(pose[1], pose[0])` and `self.index(y, x)` of a function that takes x first."""
+    own = {each.name: [one.arg for one in each.args.args if one.arg != "self"] for each in functions(tree)}
+    for call, name in calls(tree):
+        takes = own.get(name, [])
+        for place in range(min(len(takes), len(call.args)) - 1):
+            first, second = call.args[place], call.args[place + 1]
+            named = X.search(takes[place]) and Y.search(takes[place + 1])
+            wrong = bool(named) and _part(first) == ("1", _part(second)[1]) and _part(second)[0] == "0"
+            for one, other in PAIRS:
+                if one.search(takes[place]) and other.search(takes[place + 1]):
+                    texts = ast.unparse(first), ast.unparse(second)
+                    wrong = wrong or bool(other.search(texts[0]) and one.search(texts[1]))
+            if wrong:
+                yield (
+                    call.lineno,
+                    "cell",
+                    f"{ast.unparse(call)[:60]} gives {name} its arguments in the other order: it takes "
+                    f"({takes[place]}, {takes[place + 1]})",
+                )
+
+
+def _part(node: ast.expr) -> tuple[str, str]:
+    """Return the index of a part, and the whole: ("1", "pose") of `pose[1]`."""
+    if isinstance(node, ast.Subscript):
+        return ast.unparse(node.slice), ast.unparse(node.value)
+    return "", ""
+
+
+def corner_minus_point(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `(BOTTOM - y) / RESOLUTION`, which is negative for every point in the map."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.BinOp(left=ast.BinOp(left=point, op=ast.Div() | ast.FloorDiv()), op=ast.Sub(), right=corner):
+                text, other = ast.unparse(corner), ast.unparse(point)
+                if (CORNER_X.search(text) and X.search(other)) or (CORNER_Y.search(text) and Y.search(other)):
+                    yield (
+                        node.lineno,
+                        "cell",
+                        f"{ast.unparse(node)[:60]} subtracts the corner [m] from a number of cells: subtract first, "
+                        f"then divide, ({other} - {text}) / resolution",
+                    )
+            case ast.BinOp(left=ast.BinOp(left=corner, op=ast.Sub(), right=point), op=ast.Div() | ast.FloorDiv()):
+                text, other = ast.unparse(corner), ast.unparse(point)
+                x, y = bool(CORNER_X.search(text)), bool(CORNER_Y.search(text))
+                if (x and X.search(other)) or (y and Y.search(other)):
+                    yield (
+                        node.lineno,
+                        "cell",
+                        f"{ast.unparse(node)[:60]} is negative for every point in the map: it is the point minus the "
+                        f"corner, ({other} - {text})",
+                    )
+
+
+def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `x0 + (row + 0.5) * resolution`: x grows with the column."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        corner, rest = ast.unparse(node.left), ast.unparse(node.right)
+        if not isinstance(node.right, ast.BinOp) or not isinstance(node.right.op, ast.Mult):
+            continue
+        for pattern, wrong, right, axis in (
+            (CORNER_X, ROW, COLUMN, "x grows with the column, y with the row"),
+            (CORNER_Y, COLUMN, ROW, "y grows with the row, x with the column"),
+        ):
+            if pattern.search(corner) and wrong.search(rest) and not right.search(rest):
+                yield node.lineno, "cell", f"{ast.unparse(node)[:60]} exchanges rows and columns: {axis}"
+
+
+LOOKS = (other_order, corner_minus_point, axes_of_cells)

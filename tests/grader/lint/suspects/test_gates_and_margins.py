@@ -1,0 +1,168 @@
+"""Suspects in planning that ends for ever, in margins, places of cells, and poses that are made."""
+
+import ast
+
+import pytest
+
+from gz_course.grader.lint.suspects.planning import closed_gates, forgetting, margins, own_places, way_ends
+from gz_course.grader.lint.suspects.steering import made_poses, standstills
+
+
+def found(room, text):
+    tree = ast.parse(text)
+    return [(line, said) for look in room.LOOKS for line, _, said in look(tree)]
+
+
+def test_a_flag_that_the_first_call_sets_for_ever():
+    text = """
+class Mapper:  # publishes an OccupancyGrid
+    kind = OccupancyGrid
+    def __init__(self):
+        self.finished = False
+    def drive(self):
+        if not self.finished:
+            self.plan()
+            if not self.path:
+                self.finished = True
+"""
+    ((line, said),) = found(closed_gates, text)
+    assert line == 10 and "as soon as `not self.path` holds" in said
+    assert found(closed_gates, text + "    def again(self):\n        self.finished = False\n") == []
+
+
+@pytest.mark.parametrize(
+    ("begin", "test", "sets", "right"),
+    [
+        ("self.planned = False", "self.planned", "self.planned = True", "        self.planned = False\n"),
+        ("self.mode = 'LOOK'", "self.mode != 'LOOK'", "self.mode = 'GO'", "        self.mode = 'LOOK'\n"),
+    ],
+)
+def test_a_way_that_is_planned_once(begin, test, sets, right):
+    text = f"""
+class Mapper:
+    def __init__(self):
+        {begin}
+    def plan(self):
+        if {test}:
+            return
+        while self.queue:
+            self.look()
+        {sets}
+"""
+    ((line, said),) = found(closed_gates, text)
+    assert line == 6 and "planned only once" in said and sets in said
+    assert found(closed_gates, text + "    def on_goal(self):\n" + right) == []
+
+
+@pytest.mark.parametrize(
+    ("reach", "words"),
+    [
+        ("int(0.18 / self.grid.resolution)", "keep 1 cell (0.1 m)"),
+        ("math.ceil((0.18 + 0.5) / RES)", "keep 7 cells (0.7 m)"),
+        ("3", ""),
+    ],
+)
+def test_margins_of_ways(reach, words):
+    text = f"""
+RES = 0.1
+kind = OccupancyGrid
+def widened(walls):
+    reach = {reach}
+    for dy in range(-reach, reach + 1):
+        for dx in range(-reach, reach + 1):
+            walls[dy, dx] = 1
+"""
+    said = [each for _, each in found(margins, text)]
+    assert words in said[0] if words else said == []
+
+
+def test_a_margin_that_is_given_to_a_function():
+    text = """
+AWAY = 1
+kind = OccupancyGrid
+def grown(cells, by):
+    return [roll(cells, dy, dx) for dy in range(-by, by + 1) for dx in range(-by, by + 1)]
+near = grown(grid == 100, AWAY)
+frontier = grown(grid == UNKNOWN, 1)
+"""
+    ((line, said),) = found(margins, text)
+    assert line == 6 and "AWAY is 1" in said
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("self.index(self.pose[1], self.pose[0])", "takes (x, y)"),
+        ("self.index(p.y, p.x)", "takes (x, y)"),
+        ("(self.y0 - y) / self.resolution", "the point minus the corner"),
+        ("int(y / self.resolution - self.y0)", "subtract first"),
+        ("self.x0 + (row + 0.5) * self.resolution", "x grows with the column"),
+        ("self.index(self.pose[0], self.pose[1])", ""),
+        ("self.index(p.x, p.y)", ""),
+        ("(y - self.y0) / self.resolution", ""),
+        ("self.x0 + (column + 0.5) * self.resolution", ""),
+    ],
+)
+def test_places_of_cells(line, words):
+    said = [each for _, each in found(own_places, f"def index(self, x, y):\n    pass\n{line}\n")]
+    assert words in said[0] if words else said == []
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("self.yaw += m.twist.twist.angular.z * 0.02", "adds up turning rates"),
+        ("self.x = 0.9 * self.x + 0.1 * m.pose.pose.position.x", "averages the pose"),
+        ("error = (a + pi / 2) % pi", "half turns"),
+        ("error = remainder(a, math.pi)", "half turns"),
+        ("error = remainder(a, 2 * math.pi)", ""),
+        ("self.x = m.pose.pose.position.x", ""),
+    ],
+)
+def test_poses_that_are_made(line, words):
+    said = [
+        each for _, each in found(made_poses, f"def on_odom(self, m: Odometry):\n    p = m.pose.pose\n    {line}\n")
+    ]
+    assert words in said[0] if words else said == []
+
+
+def test_a_stop_for_what_is_near_on_any_side():
+    text = "if min(self.scan.ranges) < 0.5:\n    cmd.linear.x = 0.0\n"
+    ((line, said),) = found(standstills, text)
+    assert line == 1 and "on any side" in said
+    assert found(standstills, text + "    cmd.angular.z = 1.0\n") == []
+    assert found(standstills, text.replace("self.scan.ranges", "ahead")) == []
+
+
+@pytest.mark.parametrize(
+    ("begin", "line", "words"),
+    [
+        ("np.zeros(9)", "self.odds *= 0.97", "by 0.97"),
+        ("np.zeros(9)", "self.odds = np.clip(0.9 * self.odds + seen, -4, 4)", "by 0.9"),
+        ("np.zeros(9)", "self.odds = np.clip(self.odds + 0.9 * seen, -4, 4)", ""),
+        (
+            "deque(maxlen=30)",
+            "self.odds.append(scan)\n        for each in self.odds:\n            f(each)",
+            "last scans",
+        ),
+    ],
+)
+def test_maps_that_fade(begin, line, words):
+    text = f"""
+class Mapper:
+    def __init__(self):
+        self.odds = {begin}
+        self.create_subscription(LaserScan, "/scan", self.on_scan, 10)
+    def on_scan(self, scan):
+        {line}
+"""
+    said = [each for _, each in found(forgetting, text)]
+    assert words in said[0] if words else said == []
+
+
+def test_the_other_end_of_a_way():
+    text = "while near(self.way[0]):\n    self.way.pop()\n"
+    ((line, said),) = found(way_ends, text)
+    assert line == 2 and "self.way.pop(0)" in said
+    assert found(way_ends, text.replace("pop()", "pop(0)")) == []
+    assert found(way_ends, text.replace("[0]", "[-1]")) == []
