@@ -203,7 +203,7 @@ def in_degrees(run):
     if said := suspect(run.recording, "angle"):
         return said
     values = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
-    if (values > 1.45).mean() > 0.3 and (why := suspect(run.recording, "degrees")):
+    if len(values) and (values > 1.45).mean() > 0.3 and (why := suspect(run.recording, "degrees")):
         return f"angular.z was at its limit, or beyond it, in {(values > 1.45).mean():.0%} of the commands: {why}"
     if len(values) < 50 or np.mean(values > 5.0) < 0.1:
         return ""
