@@ -240,7 +240,7 @@ def listens_to_the_one_in_front(recording, parameters):
                 why = f"there is no program '{program}'"
                 if " " in program:
                     why = "the whole command line is one word: cmd is a list of words, [sys.executable, file, ...]"
-            elif not others and not why and not ENDS["started"](recording):
+            elif not others and not why and _there(recording) and not ENDS["started"](recording):
                 why = (
                     "the launch has started nothing but simulator, bridges and create: the action that starts "
                     "follower_node.py is in no list that is returned, or waits for an event that never comes"
