@@ -89,13 +89,18 @@ def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
                 yield node.lineno, "cell", f"{ast.unparse(node)[:60]} exchanges rows and columns: {axis}"
 
 
+def assigned_wholes(tree: ast.AST) -> Iterator[tuple[str, ast.Tuple]]:
+    """Yield the name of each attribute to which a tuple is assigned, and the tuple."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple):
+            yield from ((each.attr, node.value) for each in node.targets if isinstance(each, ast.Attribute))
+
+
 def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
     """Find `x, yaw, y = self.pose` where `self.pose = (p.x, p.y, heading)`."""
     kept: dict[str, set[tuple[str, ...]]] = {}
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Assign) and isinstance(each.value, ast.Tuple)):
-        for target in node.targets:
-            if isinstance(target, ast.Attribute):
-                kept.setdefault(target.attr, set()).add(tuple(last_name(each) for each in node.value.elts))
+    for owner, value in assigned_wholes(tree):
+        kept.setdefault(owner, set()).add(tuple(last_name(each) for each in value.elts))
     for node in (each for each in ast.walk(tree) if isinstance(each, ast.Assign)):
         target, orders = node.targets[0], kept.get(last_name(node.value), set())
         if not isinstance(target, ast.Tuple) or len(orders) != 1:
