@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, calls, functions
+from gz_course.grader.lint.syntax import Suspect, calls, functions, last_name
 
 CORNER_X = re.compile(
     r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
@@ -89,4 +89,33 @@ def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
                 yield node.lineno, "cell", f"{ast.unparse(node)[:60]} exchanges rows and columns: {axis}"
 
 
-LOOKS = (other_order, corner_minus_point, axes_of_cells)
+def assigned_wholes(tree: ast.AST) -> Iterator[tuple[str, ast.Tuple]]:
+    """Yield the name of each attribute to which a tuple is assigned, and the tuple."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple):
+            yield from ((each.attr, node.value) for each in node.targets if isinstance(each, ast.Attribute))
+
+
+def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `x, yaw, y = self.pose` where `self.pose = (p.x, p.y, heading)`."""
+    kept: dict[str, set[tuple[str, ...]]] = {}
+    for owner, value in assigned_wholes(tree):
+        kept.setdefault(owner, set()).add(tuple(last_name(each) for each in value.elts))
+    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Assign)):
+        target, orders = node.targets[0], kept.get(last_name(node.value), set())
+        if not isinstance(target, ast.Tuple) or len(orders) != 1:
+            continue
+        (order,) = orders
+        names = [last_name(each) for each in target.elts]
+        if len(names) == len(order) and any(
+            name in ("x", "y") and name in order and order[place] != name for place, name in enumerate(names)
+        ):
+            yield (
+                node.lineno,
+                "pose",
+                f"{ast.unparse(node)} takes the parts in another order than that in which they are kept: "
+                f"{', '.join(each or '...' for each in order)}",
+            )
+
+
+LOOKS = (unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)

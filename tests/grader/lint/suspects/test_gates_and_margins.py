@@ -166,3 +166,10 @@ def test_the_other_end_of_a_way():
     assert line == 2 and "self.way.pop(0)" in said
     assert found(way_ends, text.replace("pop()", "pop(0)")) == []
     assert found(way_ends, text.replace("[0]", "[-1]")) == []
+
+
+def test_parts_that_are_unpacked_in_another_order():
+    text = "self.pose = (p.x, p.y, atan2(a, b))\nx, yaw, y = self.pose\n"
+    ((line, said),) = found(own_places, text)
+    assert line == 2 and "x, y, ..." in said
+    assert found(own_places, text.replace("x, yaw, y", "x, y, yaw")) == []
