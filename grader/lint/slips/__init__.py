@@ -35,6 +35,7 @@ from gz_course.grader.lint.slips.language import (
     results,
     sequences,
     states,
+    unchanged_conditions,
     unreached,
 )
 from gz_course.grader.lint.slips.language.everyday import LONGEST_PERIOD, periods
@@ -64,7 +65,7 @@ ROOMS = (
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS,
     rotations.LOOKS, limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS,
     endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
-    one_array.LOOKS, endless_waits.LOOKS, locks.LOOKS,
+    one_array.LOOKS, endless_waits.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS,
 )  # fmt: skip
 
 
