@@ -290,10 +290,11 @@ def bearing_of(run, goal):
 def obeys(run, since, until):
     """Return what a robot obeys that moves between two times [s] after the end of a goal."""
     later = [0]
+    until = min([until, *(each["at"] for each in run.events if each["event"] == "sent" and each["at"] > since)])
     for name in ("linear/x", "angular/z"):
         signal = run.recording.signal(f"topics/cmd_vel/{name}")
         times = signal.times / 1e9
-        later.append(int(np.sum((times > since + 0.05) & (times <= until) & (np.abs(signal.values) > 0.02))))
+        later.append(int(np.sum((times > since + 0.05) & (times < until) & (np.abs(signal.values) > 0.02))))
     if max(later) > 1:
         return (
             f"{max(later)} commands other than zero came after the end, so a timer, a callback or another loop still "

@@ -82,3 +82,11 @@ def test_a_unit_of_the_speed_is_told_by_the_commands_not_by_a_robot_that_is_held
     assert "km/h" in found("speed", patrol).explanation
     patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"] * 3.6
     assert "km/h" not in found("speed", patrol).explanation
+
+
+def test_commands_of_the_next_goal_are_none_of_the_one_before():
+    patrol = Patrol(after=0.1)
+    commands = patrol.signals["topics/cmd_vel/linear/x"].copy()
+    commands[(patrol.times >= patrol.end) & (patrol.times < patrol.end + 0.49)] = 0.0
+    patrol.signals["topics/cmd_vel/linear/x"] = commands
+    assert "obeys the last command" in found("visits", patrol).explanation
