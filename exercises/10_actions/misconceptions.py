@@ -214,6 +214,8 @@ def reached_early(run, goal):
         )
     if near[0] < 0.2 and len(points) > 1 and np.hypot(*(way[-1] - points[0])) < 0.3:
         why = suspect(run.recording, "left_early", "left_out")
+        if not why and any(each["waypoint"] == len(points) - 1 for each in run.all("feedback", goal)):
+            why = "its index goes on to the last one and the robot does not: drive to the waypoint with that index"
         why = why or "the loop over the waypoints has to go on until the last one"
         return f"The patrol ended as {found['status']} after the first waypoint: {why}"
     return ""

@@ -90,3 +90,10 @@ def test_commands_of_the_next_goal_are_none_of_the_one_before():
     commands[(patrol.times >= patrol.end) & (patrol.times < patrol.end + 0.49)] = 0.0
     patrol.signals["topics/cmd_vel/linear/x"] = commands
     assert "obeys the last command" in found("visits", patrol).explanation
+
+
+def test_an_index_that_goes_on_without_the_robot():
+    patrol = Patrol([[1.2, 0.0]]).feedback(lambda dx, dy: 0.05)
+    assert "the loop over the waypoints has to go on" in found("visits", patrol).explanation
+    patrol.events.append((patrol.end - 0.1, "feedback", "patrol", {"waypoint": 1, "distance": 0.05}))
+    assert "its index goes on to the last one" in found("visits", patrol).explanation
