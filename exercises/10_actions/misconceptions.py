@@ -214,6 +214,8 @@ def reached_early(run, goal):
         )
     if near[0] < 0.2 and len(points) > 1 and np.hypot(*(way[-1] - points[0])) < 0.3:
         why = suspect(run.recording, "left_early", "left_out")
+        if not why and any(each["waypoint"] == len(points) - 1 for each in run.all("feedback", goal)):
+            why = "its index goes on to the last one and the robot does not: drive to the waypoint with that index"
         why = why or "the loop over the waypoints has to go on until the last one"
         return f"The patrol ended as {found['status']} after the first waypoint: {why}"
     return ""
@@ -290,10 +292,11 @@ def bearing_of(run, goal):
 def obeys(run, since, until):
     """Return what a robot obeys that moves between two times [s] after the end of a goal."""
     later = [0]
+    until = min([until, *(each["at"] for each in run.events if each["event"] == "sent" and each["at"] > since)])
     for name in ("linear/x", "angular/z"):
         signal = run.recording.signal(f"topics/cmd_vel/{name}")
         times = signal.times / 1e9
-        later.append(int(np.sum((times > since + 0.05) & (times <= until) & (np.abs(signal.values) > 0.02))))
+        later.append(int(np.sum((times > since + 0.05) & (times < until) & (np.abs(signal.values) > 0.02))))
     if max(later) > 1:
         return (
             f"{max(later)} commands other than zero came after the end, so a timer, a callback or another loop still "

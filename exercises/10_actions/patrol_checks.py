@@ -306,7 +306,7 @@ def result(recording, parameters):
         why = "The patrol was driven to its end, but ended as ABORTED: "
         why += suspect(recording, "ended") or "nothing called goal_handle.succeed()"
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
-        why = "Your result is not filled in: visited is 0 although the robot has been everywhere"
+        why = "visited of your result is 0, as if it were not filled in, although the robot has been everywhere"
     elif found["status"] == "SUCCEEDED" and found["visited"] != total:
         why = MISCONCEPTIONS.other_visited(run, found, total)
     passed = found["status"] == "SUCCEEDED" and found["visited"] == total

@@ -82,3 +82,18 @@ def test_a_unit_of_the_speed_is_told_by_the_commands_not_by_a_robot_that_is_held
     assert "km/h" in found("speed", patrol).explanation
     patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"] * 3.6
     assert "km/h" not in found("speed", patrol).explanation
+
+
+def test_commands_of_the_next_goal_are_none_of_the_one_before():
+    patrol = Patrol(after=0.1)
+    commands = patrol.signals["topics/cmd_vel/linear/x"].copy()
+    commands[(patrol.times >= patrol.end) & (patrol.times < patrol.end + 0.49)] = 0.0
+    patrol.signals["topics/cmd_vel/linear/x"] = commands
+    assert "obeys the last command" in found("visits", patrol).explanation
+
+
+def test_an_index_that_goes_on_without_the_robot():
+    patrol = Patrol([[1.2, 0.0]]).feedback(lambda dx, dy: 0.05)
+    assert "the loop over the waypoints has to go on" in found("visits", patrol).explanation
+    patrol.events.append((patrol.end - 0.1, "feedback", "patrol", {"waypoint": 1, "distance": 0.05}))
+    assert "its index goes on to the last one" in found("visits", patrol).explanation

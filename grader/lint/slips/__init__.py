@@ -45,6 +45,7 @@ from gz_course.grader.lint.slips.language import (
     sequences,
     shared_objects,
     states,
+    unchanged_conditions,
     unreached,
 )
 from gz_course.grader.lint.slips.language.everyday import LONGEST_PERIOD, periods
@@ -70,11 +71,12 @@ MOST = 3  # places reported at most
 ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, called_once.LOOKS, late_binding.LOOKS, waiting.LOOKS,
     names.LOOKS, never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS, no_effect.LOOKS,
-    parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS, searches.LOOKS,
-    scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS, euler_angles.LOOKS, exact_sums.LOOKS, starts.LOOKS,
-    sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS, limits.LOOKS, conditions.LOOKS,
-    resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS, rates.LOOKS, none_tests.LOOKS,
-    one_array.LOOKS, shared_objects.LOOKS, endless_waits.LOOKS, own_calls.LOOKS, limited_values.LOOKS, locks.LOOKS,
+    parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
+    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS, euler_angles.LOOKS,
+    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS,
+    limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS,
+    rates.LOOKS, none_tests.LOOKS, one_array.LOOKS, shared_objects.LOOKS, endless_waits.LOOKS, own_calls.LOOKS,
+    limited_values.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS,
 )  # fmt: skip
 
 
