@@ -24,12 +24,15 @@ def taken_twice(tree: ast.AST) -> Iterator[Place]:
         if isinstance(value, ast.Call) and last_name(value.func) == "Lock"
     }
     takers = {(function.name, name) for function in functions(tree) for name, _ in _taken(function, locks)}
+    classes = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    methods = {function.name for owner in classes for function in owner.body if isinstance(function, ast.FunctionDef)}
     for function in functions(tree):
         for lock, held in _taken(function, locks):
             for part in held.body:
                 for call, name in calls(part):
-                    own = ast.unparse(call.func) in (name, f"self.{name}")
-                    if own and (name, lock) in takers:
+                    # A method is called by self.NAME(); a local variable may have the same name.
+                    own = f"self.{name}" if name in methods else name
+                    if ast.unparse(call.func) == own and (name, lock) in takers:
                         yield (
                             call.lineno,
                             f"{ast.unparse(call.func)}() takes {lock}, which line {held.lineno} holds already, so it "

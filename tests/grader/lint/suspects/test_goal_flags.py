@@ -16,7 +16,7 @@ class Server(Node):
     def on_goal(self, goal):
         if self.busy:
             return GoalResponse.REJECT
-        if not goal.waypoints:
+        if not goal.waypoints or not 0.0 < goal.speed <= self.get_parameter("max_speed").value:
             return GoalResponse.REJECT
         self.busy = True
         self.points = goal.waypoints
