@@ -58,7 +58,19 @@ def said(source):
     return " ".join(each["said"] for each in slips(source.encode()))
 
 
-@pytest.mark.parametrize("source", [GLOBAL, SPIN, EULER, LOCK, LOOP])
+OTHER_RECEIVE = """\
+class Inlet(Node):
+    def __init__(self):
+        self.lock = Lock()
+
+    def receive(self):
+        receive = self.socket.recv
+        with self.lock:
+            return receive()
+"""
+
+
+@pytest.mark.parametrize("source", [GLOBAL, SPIN, EULER, LOCK, LOOP, OTHER_RECEIVE])
 def test_right_code_has_none(source):
     assert slips(source.encode()) == []
 
