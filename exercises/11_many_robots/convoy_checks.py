@@ -183,6 +183,8 @@ def own_topics(recording, parameters):
             why = "these are two different robots"
             if here[0].gz_topic.startswith(f"/model/{name_in(topic)}/"):
                 why = f"DiffDrive has no such topic in Gazebo: it is called {gz_topic}"
+            elif not here[0].gz_topic.startswith("/model/"):
+                why = f"ROS namespaces do not count in Gazebo: bridge {gz_topic}, and remap it to {topic}"
             return Finding(False, expected, measured, explanation=why)
         if here[0].direction != direction:
             why = "commands go from ROS to Gazebo, ]" if topic.endswith(DRIVES) else "odometry comes from Gazebo, ["

@@ -200,15 +200,31 @@ def test_a_name_below_the_namespace_of_a_follower(topic, words):
     ],
 )
 def test_names_of_bridges_in_namespaces(node, topic, words):
+    assert words in said_of_a_bridge(node, topic, "/model/robot1/cmd_vel")
+
+
+@pytest.mark.parametrize(
+    ("gz_topic", "words"),
+    [
+        ("/model/robot2/cmd_vel", "two different robots"),
+        ("/model/robot1/drive", "it is called /model/robot1/cmd_vel"),
+        ("cmd_vel", "ROS namespaces do not count in Gazebo: bridge /model/robot1/cmd_vel"),
+    ],
+)
+def test_another_topic_of_gazebo(gz_topic, words):
+    assert words in said_of_a_bridge("/robot1/bridge", "/robot1/cmd_vel", gz_topic)
+
+
+def said_of_a_bridge(node, topic, gz_topic):
+    """Return the explanation of the topics of a single bridge."""
     bridge = {
         "source": node, "ros_topic": topic, "ros_type": "geometry_msgs/msg/Twist", "to_ros": 0, "to_gz": 9,
-        "gz_topic": "/model/robot1/cmd_vel", "gz_type": "gz.msgs.Twist", "direction": "ROS_TO_GZ",
+        "gz_topic": gz_topic, "gz_type": "gz.msgs.Twist", "direction": "ROS_TO_GZ",
         "publisher_qos": None, "subscription_qos": None,
     }  # fmt: skip
     facts = {"bridges": [bridge], "launch": {"bridges_started": [{"node": node}]}}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
-    finding = CHECKS["own_topics"](recording, {})
-    assert words in finding.explanation
+    return CHECKS["own_topics"](recording, {}).explanation
 
 
 def seen_elsewhere(angle):

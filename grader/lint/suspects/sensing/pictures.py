@@ -10,12 +10,14 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, last_name
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
 COLUMN = re.compile(r"^(?:column|col|u|cx|middle|centre|center)$")
 ROW = re.compile(r"^(?:row|v|line|cy)$")
+COLUMNS = re.compile(r"(?:^|_|\.)(?:columns?|cols?|us?|xs?)$")
+ROWS = re.compile(r"(?:^|_|\.)(?:rows?|lines?|vs?|ys?)$")
 RIGHT = "the shape of a picture is (height, width, channels)"
 
 
@@ -66,6 +68,25 @@ def indices(tree: ast.AST) -> Iterator[Suspect]:
             first, second = (ast.unparse(each).lower() for each in node.slice.elts[:2])
             if COLUMN.search(first) and ROW.search(second):
                 yield node.lineno, "picture", f"{ast.unparse(node)[:60]}: the row comes first, picture[row, column]"
+
+
+def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `columns, rows = np.nonzero(mask)`, which returns the rows first."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign(targets=[ast.Tuple(elts=[first, second])], value=ast.Call(args=[mask]) as call):
+                pass
+            case _:
+                continue
+        if last_name(call.func) not in ("nonzero", "where") or ".T" in ast.unparse(mask):
+            continue
+        if COLUMNS.search(ast.unparse(first).lower()) and ROWS.search(ast.unparse(second).lower()):
+            yield (
+                node.lineno,
+                "picture",
+                f"{ast.unparse(node)[:70]} takes the rows for the columns: an array is [row, column], so "
+                f"{last_name(call.func)}() returns the rows first",
+            )
 
 
 def middles(tree: ast.AST) -> Iterator[Suspect]:
@@ -131,4 +152,4 @@ def _is_channel(value: ast.expr, pictures: set[str]) -> bool:
     return isinstance(value, ast.Subscript) and ast.unparse(value.value) in pictures
 
 
-LOOKS = (shapes, indices, middles, means_of_depths, overflows)
+LOOKS = (shapes, indices, unpacked_indices, middles, means_of_depths, overflows)

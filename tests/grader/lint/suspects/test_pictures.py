@@ -12,6 +12,8 @@ from gz_course.grader.lint.suspects import suspects
         ("w, h = depth.shape[:2]", "the height for the width"),
         ("self.width = colours.shape[0]", "(height, width, channels)"),
         ("picture = bridge.imgmsg_to_cv2(depth)\nahead = picture[column, row]", "the row comes first"),
+        ("columns, rows = np.nonzero(self.red_mask(colours))", "nonzero() returns the rows first"),
+        ("xs, ys = numpy.where(red > 50)", "where() returns the rows first"),
         ("self.middle = message.height / 2", "made of the height"),
         ("self.fx, self.cx = message.k[0], message.k[5]", "the middle row"),
     ],
@@ -26,6 +28,8 @@ def test_wrong(line, words):
     [
         "height, width, _ = colours.shape",
         "h, w = depth.shape[:2]",
+        "rows, columns = np.nonzero(mask)",
+        "columns, rows = np.nonzero(mask.T)",
         "w, h = depth.shape[1::-1]",
         "w, h = depth.T.shape",
         "self.width = colours.shape[1]",
