@@ -18,6 +18,7 @@ DELAYS = (0, 50_000_000, 100_000_000)  # [ns] between what a node has heard and 
 FITS = 0.99  # of the variance of the commands that a line must explain
 BETTER = 0.5  # of what the right quantity leaves unexplained: so much it must explain
 EDGE = 0.02  # [m/s, rad/s] from the largest command: nearer ones are at the limit
+LENGTH = 0.4  # [m] of a robot
 WIDE = 0.15  # [m] by which a gap differs from the right one
 SHARE = 0.9  # of the commands
 ASTRAY = 0.05  # [rad] from the direction in which a follower does not turn: more is another angle
@@ -326,6 +327,11 @@ def _of_the_gap(v, slope, offset):
     gap = -offset / slope
     if abs(gap) < 0.1:
         return "its speed is the distance times a number, so it drives on where the distance is the gap: subtract 1.2 m"
+    if abs(gap - GAP - LENGTH) < WIDE / 2:
+        return (
+            f"its speed is zero at a distance of {gap:.2f} m, which is the gap and the length of a robot: 1.2 m are "
+            "from centre to centre, not from the front of one robot to the back of the other"
+        )
     if abs(gap - GAP) > WIDE:
         return f"its speed is zero at a distance of {gap:.2f} m, so that is the gap it keeps, not 1.2 m"
     if slope < 0.8:

@@ -90,6 +90,11 @@ def test_gaps_that_are_added_up():
     assert added(said, 1) == added("", 2) == added(said, 3) == ""
 
 
+def test_a_gap_between_front_and_back():
+    said = told(lambda h: (speed_of(2.0 * (distance(h) - GAP - 0.4)), 1.5 * wrapped(bearing(h) - h.heading)), "speed")
+    assert "from centre to centre, not from the front of one robot" in said
+
+
 def test_a_list_with_too_few_robots():
     place = {"file": "convoy.launch.py", "line": 9, "count": 3, "said": "NAMES ends at 3"}
     recording = SimpleNamespace(facts=lambda: {"fixed_counts": [place]})

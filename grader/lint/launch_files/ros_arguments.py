@@ -15,12 +15,13 @@ from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argume
 from gz_course.grader.lint.launch_files.unread import OF_EVERY_NODE, declared_parameters
 
 PARAMETER = ("-p", "--param")
+RULE = ("-r", "--remap")
 GROWS = ("append", "extend", "insert")
 DEEPEST = 5  # lists in lists that are followed
 
 
 def without_ros_args(file: LaunchFile) -> Iterator[Place]:
-    """Find `-p NAME:=VALUE` in a command all of whose words are known, and none of which is --ros-args."""
+    """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in a command all of whose words are known, and none of which is --ros-args."""
     owners = _functions_of(file)
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         given = argument(call, "cmd", 0)
@@ -29,10 +30,10 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
             continue
         for before, word in pairwise(word for word in words if word is not None):
             said = "".join(text(each) for each in ast.walk(word))
-            if text(before) in PARAMETER and ":=" in said:
+            if text(before) in PARAMETER + RULE and ":=" in said:
                 yield (
                     word.lineno,
-                    f"--ros-args is missing before -p {said if text(word) else ast.unparse(word)}: words before it "
+                    f"--ros-args is missing before {text(before)} {said if text(word) else ast.unparse(word)}: words before it "
                     "belong to the program, and ROS does not read them",
                 )
                 break
