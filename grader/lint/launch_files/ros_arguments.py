@@ -21,7 +21,7 @@ DEEPEST = 5  # lists in lists that are followed
 
 
 def without_ros_args(file: LaunchFile) -> Iterator[Place]:
-    """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in a command all of whose words are known, and none of which is --ros-args."""
+    """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in a command whose words are all known, none of them --ros-args."""
     owners = _functions_of(file)
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         given = argument(call, "cmd", 0)
@@ -31,9 +31,10 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
         for before, word in pairwise(word for word in words if word is not None):
             said = "".join(text(each) for each in ast.walk(word))
             if text(before) in PARAMETER + RULE and ":=" in said:
+                option = f"{text(before)} {said if text(word) else ast.unparse(word)}"
                 yield (
                     word.lineno,
-                    f"--ros-args is missing before {text(before)} {said if text(word) else ast.unparse(word)}: words before it "
+                    f"--ros-args is missing before {option}: words before it "
                     "belong to the program, and ROS does not read them",
                 )
                 break
