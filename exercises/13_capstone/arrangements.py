@@ -56,6 +56,15 @@ def wrong_values(said, fits):
     return ""
 
 
+def other_unknown(said, seen):
+    """Return that most cells that no ray has touched hold a number that means nothing, such as 50; else nothing."""
+    values = said[~seen]
+    other = values[(values != -1) & ((values < 0) | (values > FREE) & (values < OCCUPIED))]
+    if len(other) <= 0.5 * len(values):
+        return ""
+    return f"unknown cells hold {np.median(other):g}: in an OccupancyGrid the number for unknown is -1"
+
+
 def moved(marked, solid, start=(0.0, 0.0, 0.0)):
     """Yield by how many cells the walls of a map are beside those that stand there, and the map without it.
 

@@ -178,9 +178,10 @@ def known_before(recording):
 
 
 def free(recording, parameters):
-    """Pass if what rays have passed is free in the last map, and hardly anything else is."""
+    """Pass if what rays have passed is free in the last map, hardly anything else is, and unknown is -1."""
     expected = (
-        f"{SEEN:.0%} of the cells that rays passed are free, and at most {NEVER_SEEN:.0%} of the free ones are others"
+        f"{SEEN:.0%} of the cells that rays passed are free, and at most {NEVER_SEEN:.0%} of the free ones are others, "
+        "and unknown is -1"
     )
     said, at = grid(recording)
     if said is None:
@@ -197,9 +198,11 @@ def free(recording, parameters):
         f"{share:.0%} of {passed.sum()} cells that rays passed are free; {other:.0%} of your {marked.sum()} free "
     )
     measured += "cells were never seen"
-    if share >= SEEN and other <= NEVER_SEEN:
+    words = ARRANGED.other_unknown(said, seen)
+    if share >= SEEN and other <= NEVER_SEEN and not words:
         return Finding(True, expected, measured)
-    words = ""
+    if words:
+        return Finding(False, expected, measured, round(at, 3), explanation=words)
     if not marked.any():
         words = "no cell is free, only the hits are drawn: the cells between the robot and a hit are free"
     elif not (said < 0).any():

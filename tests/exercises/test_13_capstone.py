@@ -301,3 +301,11 @@ def test_a_side_that_is_touched_by_a_narrow_margin_is_looked_up():
     narrow = {"line": 5, "about": "narrow", "said": "1 cell"}
     assert DRIVING.touched(recording(suspects=[narrow]), 0.18, 0, (0.0, 0.18)) == "line 5: 1 cell"
     assert "straight at it" in DRIVING.touched(recording(suspects=[narrow]), 0.18, 0, (0.2, 0.0))
+
+
+@pytest.mark.parametrize(("value", "words"), [(50, "unknown cells hold 50"), (-1, ""), (0, ""), (100, "")])
+def test_the_number_of_unknown_cells(value, words):
+    said, _, seen = grids()
+    said[~seen], said[seen] = value, 0
+    found = ARRANGED.other_unknown(said, seen)
+    assert words in found if words else found == ""

@@ -22,8 +22,10 @@ from gz_course.grader.lint.slips.clocks import (
 from gz_course.grader.lint.slips.geometry import (
     angles,
     euler_angles,
+    filtered_rays,
     limited_values,
     limits,
+    map_starts,
     rotations,
     searches,
     sorted_rays,
@@ -76,7 +78,7 @@ ROOMS = (
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS,
     limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS,
     rates.LOOKS, none_tests.LOOKS, one_array.LOOKS, shared_objects.LOOKS, endless_waits.LOOKS, own_calls.LOOKS,
-    limited_values.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS,
+    limited_values.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS, filtered_rays.LOOKS, map_starts.LOOKS,
 )  # fmt: skip
 
 

@@ -19,7 +19,16 @@ from gz_course.grader.lint.suspects.actions import (
     tried_goals,
     waypoint_loops,
 )
-from gz_course.grader.lint.suspects.memory import ages, aliases, flags, hidden_errors, lookups, old_values, oldest
+from gz_course.grader.lint.suspects.memory import (
+    ages,
+    aliases,
+    every_nth,
+    flags,
+    hidden_errors,
+    lookups,
+    old_values,
+    oldest,
+)
 from gz_course.grader.lint.suspects.planning import (
     closed_gates,
     forgetting,
@@ -90,6 +99,7 @@ LOOKS = (
     *ways.LOOKS,
     *waypoint_loops.LOOKS,
     *ages.LOOKS,
+    *every_nth.LOOKS,
     *lookups.LOOKS,
     *oldest.LOOKS,
     *sleeps.LOOKS,

@@ -13,15 +13,23 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
     for node in ast.walk(tree):
         if not isinstance(node, ast.Subscript) or not ast.unparse(node.value).endswith("ranges"):
             continue
-        numbers = [each for each in ast.walk(node.slice) if isinstance(each, ast.Constant)]
-        names = [each for each in ast.walk(node.slice) if isinstance(each, ast.Name | ast.Attribute | ast.Call)]
-        if numbers and not names:
+        if _numbered(node.slice):
             yield (
                 node.lineno,
                 "ray",
                 f"{ast.unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
                 "[rad], and 0 is ahead only if angle_min is 0",
             )
+
+
+def _numbered(index: ast.expr) -> bool:
+    """Return whether an index is made of numbers alone; `[:, None]` adds an axis, and `[::-1]` leaves no ray out."""
+    if isinstance(index, ast.Tuple):
+        return False
+    parts = [index.lower, index.upper] if isinstance(index, ast.Slice) else [index]
+    inside = [each for part in parts if part is not None for each in ast.walk(part)]
+    names = any(isinstance(each, ast.Name | ast.Attribute | ast.Call) for each in inside)
+    return not names and any(isinstance(each, ast.Constant) and isinstance(each.value, int) for each in inside)
 
 
 def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:

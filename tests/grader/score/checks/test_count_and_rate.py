@@ -58,3 +58,11 @@ def test_the_rate_is_the_number_over_the_time(record, found, times):
     exact = len(times) / 8
     assert found("rate", recording, topic="cmd_vel", hertz=[exact - 1e-9, exact + 1e-9]).passed or number != len(times)
     assert not found("rate", recording, topic="cmd_vel", hertz=[exact + 0.1]).passed
+
+
+@pytest.mark.parametrize(("scans", "words"), [(0.2, "one in 10 calls of on_scan publish, so a message"), (0.5, "")])
+def test_a_counter_that_lets_few_messages_through_is_named_if_they_come_so(record, found, scans, words):
+    said = {"line": 6, "about": "every", "said": "self.n % 10 == 0 lets only one in 10 calls of on_scan publish"}
+    signals = every(2.0) | {"topics/scan/range_min": [(round(i * scans, 6), 0.1) for i in range(int(8 / scans))]}
+    finding = found("rate", record(signals, facts={"suspects": [said]}), topic="cmd_vel", hertz=[0.95])
+    assert words in finding.explanation if words else finding.explanation == ""
