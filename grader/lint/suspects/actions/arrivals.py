@@ -25,7 +25,7 @@ def _axis(node: ast.AST) -> str:
                 if fits := COORDINATE.fullmatch(name.lower()):
                     found.add(fits[1])
             case ast.Subscript(slice=ast.Constant(value=0 | 1 as index)):
-                found.add("xy"[index])
+                found.add("y" if index == 1 else "x")
     return found.pop() if len(found) == 1 else ""
 
 
