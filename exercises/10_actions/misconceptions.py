@@ -37,7 +37,7 @@ def went_elsewhere(run, goal, until):
         return words
     if said := suspect(run.recording, "one_axis"):
         return f"A waypoint counts as reached where the robot is not: {said}"
-    if words := last_only(run, way, points):
+    if words := last_only(run, goal, way, points):
         return words
     return (
         blind(run, goal)
@@ -48,12 +48,21 @@ def went_elsewhere(run, goal, until):
     )
 
 
-def last_only(run, way, points):
+def last_only(run, goal, way, points):
     """Find out whether the robot went to the last waypoint and to none before it."""
     if len(points) < 2 or _reaches(way, points[:1]) or not _reaches(way, points[-1:]):
         return ""
-    why = suspect(run.recording, "left_out") or "the goal holds a list of them, to be visited one after another"
-    return f"The robot drove to the last waypoint only: {why}"
+    words = "The robot drove to the last waypoint only: "
+    if why := suspect(run.recording, "left_out"):
+        return words + why
+    said, nearest = run.all("feedback", goal), np.hypot(*(way - points[0]).T).min()
+    if said and said[0]["waypoint"] == 0 and said[-1]["waypoint"] == len(points) - 1:
+        return (
+            f"Your server takes the waypoint 0 for reached although the robot was never nearer to it than "
+            f"{nearest:.2f} m: the condition by which a waypoint is reached holds too early; the distance, "
+            "hypot(dx, dy), must be below 0.15 m"
+        )
+    return f"{words}the goal holds a list of them, to be visited one after another"
 
 
 def old_commands(run, goal, until):
@@ -193,18 +202,22 @@ def reached_early(run, goal):
     if found is None:
         return ""
     way = run.way[(run.times >= start) & (run.times <= end)]
+    axis = suspect(run.recording, "one_axis")
+    axis = f"A waypoint counts as reached where the robot is not: {axis}" if axis else ""
     if not len(way) or np.hypot(*(way - way[0]).T).max() < MOVED:
-        return (
-            f"The patrol ended as {found['status']} before the robot had moved: what ends it must come after the loop "
-            "that drives"
+        return axis or (
+            f"The patrol ended as {found['status']} before the robot had moved: "
+            + (
+                suspect(run.recording, "inverted")
+                or "either the condition of the loop that drives is false at once, or what ends the patrol comes "
+                "before the robot has arrived"
+            )
         )
     if words := other_places(way, np.array(points)):
         return f"The robot went elsewhere: {words}"
     near = [float(np.hypot(*(way - point).T).min()) for point in points]
-    if words := last_only(run, way, np.array(points)):
+    if words := axis or last_only(run, goal, way, np.array(points)):
         return words
-    if said := suspect(run.recording, "one_axis"):
-        return f"A waypoint counts as reached where the robot is not: {said}"
     if max(near) < 0.6 and (words := by_reckoning(run, goal)):
         return words
     if max(near) < 0.6:

@@ -23,6 +23,7 @@ STOPPED = 0.5  # [s] after the cancellation
 MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("misconceptions.py"))))
 LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
 SPEEDS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("speeds.py"))))
+PAUSES = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("pauses.py"))))
 REFUSALS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("refusals.py"))))
 GOALS = {goal: words for goal, (words, _) in REFUSALS.GOALS.items()}
 
@@ -220,7 +221,7 @@ def feedback(recording, parameters):
     times = [start, *(each["at"] for each in said), end]
     gap = max(later - sooner for sooner, later in pairwise(times))
     if gap > LARGEST_GAP:
-        why = endless(run) or f"Your feedback is too rare: {len(said)} messages in {end - start:.0f} s"
+        why = endless(run) or PAUSES.rare(run, said, start, end)
         return wrong(f"{gap:.1f} s without feedback", end, why)
     if len({(each["waypoint"], each["distance"]) for each in said}) == 1:
         return wrong("it was always the same", end, "Your feedback never changes: compute it again in every iteration")

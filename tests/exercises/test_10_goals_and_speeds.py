@@ -4,6 +4,7 @@ import runpy
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 PATROLS = runpy.run_path(str(Path(__file__).with_name("test_10_actions.py")))
 Patrol, POINTS, STEP, found = (PATROLS[name] for name in ("Patrol", "POINTS", "STEP", "found"))
@@ -97,3 +98,46 @@ def test_an_index_that_goes_on_without_the_robot():
     assert "the loop over the waypoints has to go on" in found("visits", patrol).explanation
     patrol.events.append((patrol.end - 0.1, "feedback", "patrol", {"waypoint": 1, "distance": 0.05}))
     assert "its index goes on to the last one" in found("visits", patrol).explanation
+
+
+@pytest.mark.parametrize("places", [[[1.2, 0.7]], [[0.01, 0.0]], [[1.2, 0.0], [1.2, 0.4]]])
+def test_one_coordinate_that_is_enough_goes_before_guesses(places):
+    patrol = Patrol(places)
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "one_axis", "said": "so it is"}]}
+    assert "A waypoint counts as reached where the robot is not: line 7" in found("visits", patrol).explanation
+
+
+def test_a_robot_at_the_last_waypoint_only():
+    patrol = Patrol([[1.2, 0.7]])
+    assert "drove to the last waypoint only" in found("visits", patrol).explanation
+    patrol.events.append((1.2, "feedback", "patrol", {"waypoint": 0, "distance": 1.1}))
+    patrol.events.append((2.0, "feedback", "patrol", {"waypoint": 1, "distance": 0.9}))
+    assert "takes the waypoint 0 for reached although" in found("visits", patrol).explanation
+
+
+@pytest.mark.parametrize(
+    ("times", "indices", "words"),
+    [
+        ((1.1, 4.0), (0, 1), "once for each waypoint, when it begins, and not while the robot drives: line 7"),
+        ((3.9, 5.5), (0, 1), "once for each waypoint, when it is reached, and not while the robot drives: line 7"),
+        ((1.1,), (0,), "published once, when the patrol begins, and not while the robot drives: line 7"),
+        ((1.1, 2.4, 3.7, 5.0), (0, 0, 0, 1), "too rare: 4 messages in 5 s, one every 1.3 s: line 7"),
+        ((1.1, 1.2, 5.0), (0, 0, 1), "too rare: 3 messages in 5 s: line 7"),
+        ((1.1, 1.2, 1.3, 1.4, 1.5, 5.0, 5.1), (0,) * 5 + (1, 1), "for more than a second at times: line 7"),
+    ],
+)
+def test_when_feedback_comes_that_is_too_rare(times, indices, words):
+    patrol = Patrol()
+    patrol.events += [
+        (at, "feedback", "patrol", {"waypoint": index, "distance": 0.5})
+        for at, index in zip(times, indices, strict=True)
+    ]
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "rare_feedback", "said": "so it is"}]}
+    assert words in found("feedback", patrol).explanation
+
+
+def test_a_patrol_that_ends_before_it_begins():
+    patrol = Patrol([[0.01, 0.0]])
+    assert "either the condition of the loop" in found("visits", patrol).explanation
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "inverted", "said": "so it is"}]}
+    assert "before the robot had moved: line 7: so it is" in found("visits", patrol).explanation

@@ -11,11 +11,13 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.actions import (
     answers,
+    arrivals,
     goal_flags,
     goals,
     judgements,
     patrols,
     phases,
+    rare_feedback,
     tried_goals,
     waypoint_loops,
 )
@@ -92,6 +94,8 @@ LOOKS = (
     *judgements.LOOKS,
     *tried_goals.LOOKS,
     *answers.LOOKS,
+    *arrivals.LOOKS,
+    *rare_feedback.LOOKS,
     *phases.LOOKS,
     *old_values.LOOKS,
     *drives.LOOKS,

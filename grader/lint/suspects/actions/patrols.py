@@ -111,25 +111,6 @@ def _lines_of_init(tree: ast.AST) -> set[int]:
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
-def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a loop to a place that ends, or a place that counts as reached, as soon as x or y alone is near."""
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.If | ast.While) or not isinstance(node.test, ast.BoolOp):
-            continue
-        parts = [ast.unparse(each) for each in node.test.values if isinstance(each, ast.Compare)]
-        axes = [side for side in ("x", "y") if any(re.search(rf"abs\(.*{side}\b", part) for part in parts)]
-        loop, above = isinstance(node, ast.While), all(">" in part for part in parts)
-        below = all("<" in part for part in parts)
-        ends = isinstance(node.test.op, ast.And) and above if loop else isinstance(node.test.op, ast.Or) and below
-        if len(parts) == 2 and len(axes) == 2 and ends:
-            yield (
-                node.lineno,
-                "one_axis",
-                f"`{ast.unparse(node.test)[:90]}` is {'over' if loop else 'true'} as soon as x or y alone is near: "
-                "what counts is the distance, math.hypot(dx, dy)",
-            )
-
-
 def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
     for node in ast.walk(tree):
@@ -189,7 +170,6 @@ LOOKS = (
     loops_that_do_not_ask,
     breaks_of_the_inner_loop,
     counts_that_go_on,
-    one_axis_is_enough,
     one_side_of_an_angle,
     summed_places,
 )
