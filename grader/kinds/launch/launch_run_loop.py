@@ -158,7 +158,9 @@ class LaunchRunLoop(RunLoop):
         if was_running:
             self._processes.signal(signal.SIGINT)
         patience = Patience(self._processes.clock, END_PATIENCE)
+        out_of_reach: list[str] = []
         while self._processes.running and not patience.over():
+            out_of_reach = self._out_of_reach()  # when the launch ends, so does the sandbox, with all that is left
             self._processes.wait(0.02)
             self._pace.everything_arrived()
             self._ros.pump()
@@ -167,6 +169,8 @@ class LaunchRunLoop(RunLoop):
         ended_itself = not self._processes.running
         left = [s.argument for s in self._programs.simulators if s.running and not s.stopped]
         left += [b.node for b in self._programs.bridges if not (b.stopped or b.errors)]
+        if ended_itself and not left:
+            left = out_of_reach
         self._processes.stop()
         self._collect()
         lines, self._lines[seen:] = self._lines[seen:], []
@@ -177,6 +181,15 @@ class LaunchRunLoop(RunLoop):
             "left": sorted(left),
             "error": next((match.group(1) for line in self._lines if (match := FAILED.match(line))), ""),
         }
+
+    def _out_of_reach(self) -> list[str]:
+        """Return the running programs that the launch file's own Python has put out of the reach of Ctrl-C.
+
+        A terminal sends SIGINT to the process group of the launch; what an action starts gets it from the launch.
+        """
+        programs = self._processes.participants  # the launch itself comes first
+        detached = (p for p in programs[1:] if p.alive and p.group != programs[0].group)
+        return sorted({p.program for p in detached if self._processes.started_by_submission(p)})
 
     def _take(self, line: str) -> None:
         """Keep a line. Raises InfrastructureError if the launch had no time to end on a busy machine."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import launch_facts
+from gz_course.grader.score.launched import by_python, launch_facts
 
 
 @check_kind("launched_end")
@@ -19,7 +19,10 @@ def launched_end(recording: Recording, parameters: Table) -> Finding:
     if not facts.get("running"):
         return Finding(False, expected, "the launch had ended before it was interrupted")
     if facts["left"]:
-        return Finding(False, expected, f"the launch ended, but this ran on: {', '.join(facts['left'])}")
+        why = next(filter(None, (by_python(recording, each) for each in facts["left"])), "")
+        return Finding(
+            False, expected, f"the launch ended, but this ran on: {', '.join(facts['left'])}", explanation=why
+        )
     if not facts["ended_itself"]:
         return Finding(False, expected, "the launch did not end")
     if facts["escalated"]:

@@ -282,6 +282,12 @@ def test_a_simulator_that_runs_on_after_ctrl_c_is_named(launch):
     assert run.facts["left"] == ["shapes.sdf"]
 
 
+def test_a_program_of_python_that_runs_on_after_ctrl_c_is_named(launch):
+    popen = '__import__("subprocess").Popen(["ros2", "topic", "echo", "/clock"], start_new_session=True)'
+    run = launch(f'gz("sim", "-s", "-r", "shapes.sdf"), *([] if {popen} else []),')
+    assert run.facts["by_python"] == run.facts["left"] == ["ros2"]
+
+
 def test_an_error_in_the_launch_file_is_on_record_with_its_line(launch):
     run = launch('gz("sim", "-s", robot_description),')
     assert run.facts["error"].startswith("/submission/bringup.launch.py:")

@@ -298,6 +298,11 @@ def test_an_end_that_is_none(find, changes, measured):
     assert (finding.passed, finding.measured) == (False, measured)
 
 
+def test_a_program_of_python_that_runs_on(find):
+    finding = find("end", left=["a.py"], by_python=["a.py"])
+    assert finding.explanation == "a.py was started by Python (subprocess or os.system), not by an action of the launch"
+
+
 def test_the_fault_of_a_launch_comes_with_file_and_line(record):
     error = "/submission/bringup.launch.py:26: NameError: name 'x' is not defined"
     facts = {"launch": GOOD | {"error": error, "exit_code": 1, "running": False}, "exit_code": 1, "exit_at": 0.0}
