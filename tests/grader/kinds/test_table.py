@@ -48,11 +48,11 @@ def test_words_that_yaml_takes_for_something_else_stay_words():
         (b"- /a\n", 1, ["expected a row"]),
         (b"- ros_topic: /a\n  gz_tpye: x\n", 2, ["no column 'gz_tpye'", "did you mean 'gz_type'?"]),
         (b"- ROS_topic: /a\n", 1, ["no column 'ROS_topic'", "did you mean 'ros_topic'?"]),
-        (b"- ros_topic: /a\n  ros_type: x\n  ros_type: y\n", 3, ["ros_type stands twice", "line 2"]),
+        (b"- ros_topic: /a\n  ros_type: x\n  ros_type: y\n", 3, ["ros_type appears twice", "line 2"]),
         (
             b"- ros_topic: /a\n  ros_type: x\n  ros_topic: /b\n  ros_type: y\n",
             3,
-            ["ros_topic stands twice", "a dash is missing here, '- ros_topic:' begins the next row"],
+            ["ros_topic appears twice", "a dash is missing here, '- ros_topic:' begins the next row"],
         ),
         (b"- ros_topic: /a\n  publisher: [a, b]\n", 2, ["publisher must be one value"]),
         (b"- ros_topic: /a\n  publisher: {a: b}\n", 2, ["publisher must be one value"]),
