@@ -6,6 +6,8 @@ import ast
 from collections.abc import Callable, Mapping
 from math import ceil, floor
 
+from gz_course.grader.lint.syntax import walk
+
 Number = int | float
 OPERATIONS = {
     ast.Add: lambda a, b: a + b,
@@ -27,7 +29,7 @@ def named_numbers(tree: ast.AST) -> dict[str, Number]:
     """Return the value of each name and attribute that is assigned one number, always the same, and nothing else."""
     found: dict[str, Number] = {}
     others: set[str] = set()
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 value, name = number(node.value, found), ast.unparse(target)

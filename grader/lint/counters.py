@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Places, assigned, functions, places_in
+from gz_course.grader.lint.syntax import Places, assigned, functions, places_in, walk
 
 MOST = 3  # counters reported at most
 
@@ -32,11 +32,11 @@ def _counters(tree: ast.Module) -> Iterator[dict[str, Any]]:
         if isinstance(value, ast.Constant) and value.value == 0 and not isinstance(value.value, bool)
     }
     for function in functions(tree):
-        for added in (node for node in ast.walk(function) if isinstance(node, ast.AugAssign | ast.Assign)):
+        for added in (node for node in walk(function) if isinstance(node, ast.AugAssign | ast.Assign)):
             counter = _increased(added)
             if counter.removeprefix("self.") not in from_zero and counter not in from_zero:
                 continue
-            for test in ast.walk(function):
+            for test in walk(function):
                 if not isinstance(test, ast.Compare) or len(test.ops) != 1 or test.lineno >= added.lineno:
                     continue
                 limit = number(test.comparators[0], numbers)

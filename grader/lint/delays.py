@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Places, calls, places_in
+from gz_course.grader.lint.syntax import Places, calls, places_in, walk
 
 MOST = 4  # delays of a file; with more, nobody knows which of them count
 SLEEPS = frozenset({"sleep"})
@@ -28,15 +28,15 @@ def _delays(tree: ast.Module) -> Places:
     numbers = named_numbers(tree)
     rounds = {
         id(inner): times
-        for loop in ast.walk(tree)
+        for loop in walk(tree)
         if isinstance(loop, ast.For) and (times := _rounds(loop, numbers))
-        for inner in ast.walk(loop)
+        for inner in walk(loop)
     }
     loops = {
         id(inner)
-        for loop in ast.walk(tree)
+        for loop in walk(tree)
         if isinstance(loop, ast.While | ast.For)
-        for inner in ast.walk(loop)
+        for inner in walk(loop)
         if id(inner) not in rounds
     }
     found: list[dict[str, Any]] = []
@@ -57,5 +57,5 @@ def _rounds(loop: ast.For, numbers: Mapping[str, Number]) -> int:
     """Return how often a `for ... in range(N)` runs; 0 for other loops, and for one that may be left."""
     counted = loop.iter if isinstance(loop.iter, ast.Call) and ast.unparse(loop.iter.func) == "range" else None
     times = number(counted.args[0], numbers) if counted is not None and len(counted.args) == 1 else None
-    left = any(isinstance(each, ast.Break | ast.Return) for each in ast.walk(loop))
+    left = any(isinstance(each, ast.Break | ast.Return) for each in walk(loop))
     return int(times) if times and not left else 0

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.slips.language.sequences import assigned
-from gz_course.grader.lint.syntax import functions
+from gz_course.grader.lint.syntax import functions, walk
 
 FLOAT32 = frozenset({"ranges", "intensities"})  # fields that are arrays of float32
 VALUES = frozenset({"data", "x", "y", "z", "w", "range"})  # floating-point fields
@@ -38,7 +38,7 @@ def numpy_numbers(tree: ast.Module) -> Iterator[dict[str, Any]]:
 
 
 def _sent(function: ast.FunctionDef) -> Iterator[tuple[int, str, ast.expr]]:
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
             target = node.targets[0]
             if target.attr in VALUES and not (isinstance(target.value, ast.Name) and target.value.id == "self"):

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from gz_course.grader.lint.syntax import Places, places_in
+from gz_course.grader.lint.syntax import Places, places_in, walk
 
 SENDS = frozenset({"publish", "publish_feedback", "sendTransform"})
 LOGS = frozenset({"debug", "info", "warn", "warning", "error"})
@@ -61,7 +61,7 @@ class _Program:
     parent: dict[ast.AST, ast.AST] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for node in ast.walk(self.tree):
+        for node in walk(self.tree):
             for child in ast.iter_child_nodes(node):
                 self.parent[child] = node
             if isinstance(node, Function):
@@ -87,13 +87,13 @@ class _Program:
 
     def read(self, node: ast.AST) -> set[Name]:
         """Return the variables that an expression reads, those of the module also."""
-        parts = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+        parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
         found = {name for part in parts if (name := self.name(part)) is not None}
         return found | {(0, word) for _, word in found}
 
     def changes(self) -> Iterator[tuple[ast.stmt, set[Name], ast.AST]]:
         """Yield each statement that assigns something, what it assigns, and the expression that it takes it from."""
-        for node in ast.walk(self.tree):
+        for node in walk(self.tree):
             targets: list[ast.expr] = []
             value: ast.AST | None = getattr(node, "value", None)
             if isinstance(node, ast.Assign):
@@ -112,7 +112,7 @@ class _Program:
 
     def handed_over(self) -> Iterator[tuple[ast.AST, set[Name], ast.AST]]:
         """Yield each argument of a call of the file's functions, with the parameter that it becomes."""
-        for call in (node for node in ast.walk(self.tree) if isinstance(node, ast.Call)):
+        for call in (node for node in walk(self.tree) if isinstance(node, ast.Call)):
             function = self.functions.get(ast.unparse(call.func).rpartition(".")[2])
             names = [each.arg for each in function.args.args if each.arg != "self"] if function is not None else []
             given = [*zip(names, call.args, strict=False), *((each.arg, each.value) for each in call.keywords)]
@@ -130,7 +130,7 @@ def _parts(target: ast.expr) -> Iterator[ast.expr]:
 
 def _sinks(program: _Program) -> list[ast.Call]:
     """Return the calls that publish; if there are none, those that log."""
-    calls = [node for node in ast.walk(program.tree) if isinstance(node, ast.Call)]
+    calls = [node for node in walk(program.tree) if isinstance(node, ast.Call)]
     sends = [call for call in calls if isinstance(call.func, ast.Attribute) and call.func.attr in SENDS and call.args]
     if sends:
         return sends
@@ -154,10 +154,10 @@ def _origins(program: _Program) -> Places:
             continue
         seen[id(node)] = node
         wanted |= program.read(node)
-        for call in (each for each in ast.walk(node) if isinstance(each, ast.Call)):
+        for call in (each for each in walk(node) if isinstance(each, ast.Call)):
             function = program.functions.get(ast.unparse(call.func).rpartition(".")[2])
             if function is not None:
-                returns = [each for each in ast.walk(function) if isinstance(each, ast.Return)]
+                returns = [each for each in walk(function) if isinstance(each, ast.Return)]
                 todo += [each.value for each in returns if each.value is not None]
         for statement, names, value in (*changes, *handed_over):
             if names & wanted and id(value) not in seen:
@@ -173,7 +173,7 @@ def _origins(program: _Program) -> Places:
 
 def _tells(program: _Program, node: ast.AST) -> bool:
     """Return whether an expression calculates or chooses something; functions of the file are followed, not named."""
-    for each in ast.walk(node):
+    for each in walk(node):
         if isinstance(each, ast.BinOp | ast.BoolOp | ast.USub | ast.Slice | ast.IfExp | ast.ListComp):
             return True
         if isinstance(each, ast.Compare) and not isinstance(each.ops[0], ast.Is | ast.IsNot):
@@ -233,7 +233,7 @@ def _conditions(program: _Program) -> Places:
 
 def _of_the_drive(program: _Program) -> Places:
     found = {}
-    for node in ast.walk(program.tree):
+    for node in walk(program.tree):
         if not isinstance(node, ast.Assign) or (isinstance(node.value, ast.Constant) and node.value.value == 0):
             continue
         if any(ast.unparse(target).endswith("linear.x") for target in node.targets):
@@ -246,7 +246,7 @@ def _of_the_drive(program: _Program) -> Places:
 
 def _before_speeds(program: _Program) -> Places:
     found = {}
-    for node in ast.walk(program.tree):
+    for node in walk(program.tree):
         if not isinstance(node, ast.Assign) or isinstance(node.value, ast.Constant):
             continue
         if any(ast.unparse(target).endswith("linear.x") for target in node.targets):
@@ -258,7 +258,7 @@ def _before_speeds(program: _Program) -> Places:
 def _callers(program: _Program) -> dict[str, list[ast.Call]]:
     """Return the calls of each function of the file, by its name; callbacks have none."""
     found: dict[str, list[ast.Call]] = {}
-    for call in (each for each in ast.walk(program.tree) if isinstance(each, ast.Call)):
+    for call in (each for each in walk(program.tree) if isinstance(each, ast.Call)):
         name = ast.unparse(call.func).removeprefix("self.")
         if name in program.functions and len(found.setdefault(name, [])) < MOST:
             found[name].append(call)
@@ -268,7 +268,7 @@ def _callers(program: _Program) -> dict[str, list[ast.Call]]:
 def _topics(program: _Program) -> dict[str, str]:
     """Return the topic of each publisher that is made with a constant name."""
     found: dict[str, str] = {}
-    for node in ast.walk(program.tree):
+    for node in walk(program.tree):
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and len(node.value.args) >= 2:
             topic = node.value.args[1]
             if ast.unparse(node.value.func).endswith("create_publisher") and isinstance(topic, ast.Constant):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import assigned, calls, functions, last_name, walk
 
 ASKS = frozenset({"get_parameter", "get_parameter_or"})
 OF_MANY = frozenset({"get_parameters", "get_parameters_by_prefix", "get_parameter_types"})
@@ -76,7 +76,7 @@ def only_at_the_start(tree: ast.Module) -> set[str]:
     """Return the functions that run once: __init__, main, and those that nobody but these calls or passes on."""
     inside, once = owners(tree), {MODULE, "__init__", "main"}
     used: dict[str, set[str]] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Attribute | ast.Name) and isinstance(node.ctx, ast.Load):
             used.setdefault(last_name(node), set()).add(inside[id(node)])
     direct = {last_name(call.func) for call, _ in calls(tree)}
@@ -100,7 +100,7 @@ def members(function: ast.FunctionDef) -> set[str]:
     given = {each.arg for each in function.args.args} - {"self"}
     return {
         node.target.id
-        for node in ast.walk(function)
+        for node in walk(function)
         if isinstance(node, ast.For | ast.comprehension)
         and isinstance(node.target, ast.Name)
         and isinstance(node.iter, ast.Name)

@@ -12,10 +12,19 @@ Places = list[dict[str, Any]]
 # Nodes of a syntax tree, each counted once for every node above it: what it costs to look into each statement from
 # each of those around it. The longest solution has a third of that.
 MOST_WORK = 30_000
+WALKED = "_walked"
+
+
+def walk(node: ast.AST) -> tuple[ast.AST, ...]:
+    """Return a node and all nodes below it, as `ast.walk` does. The node keeps them: a hundred looks ask for them."""
+    kept: tuple[ast.AST, ...] | None = node.__dict__.get(WALKED)
+    if kept is None:
+        kept = node.__dict__[WALKED] = tuple(ast.walk(node))
+    return kept
 
 
 def functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
-    return (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+    return (node for node in walk(tree) if isinstance(node, ast.FunctionDef))
 
 
 def last_name(node: ast.AST) -> str:
@@ -27,7 +36,7 @@ def last_name(node: ast.AST) -> str:
 
 def calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
     """Yield every call with the last part of the name that is called: `cos` of `math.cos(x)`."""
-    return ((node, last_name(node.func)) for node in ast.walk(tree) if isinstance(node, ast.Call))
+    return ((node, last_name(node.func)) for node in walk(tree) if isinstance(node, ast.Call))
 
 
 def called(tree: ast.AST) -> set[str]:
@@ -37,7 +46,7 @@ def called(tree: ast.AST) -> set[str]:
 
 def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
     """Yield every target of an assignment with its value; the parts of tuples one by one."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
             yield node.target, node.value
         if not isinstance(node, ast.Assign):
@@ -51,7 +60,7 @@ def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
 
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
     """Yield each assignment to a single target, after the target."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
             yield node.targets[0], node
 

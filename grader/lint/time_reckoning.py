@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from gz_course.grader.lint.syntax import Places, places_in
+from gz_course.grader.lint.syntax import Places, places_in, walk
 
 MOST = 3  # places reported at most
 CLOCKS = frozenset({"get_clock", "stamp", "clock", "monotonic", "time", "Clock", "nanoseconds"})
@@ -25,8 +25,8 @@ def time_reckoning(content: bytes) -> Places:
 
 
 def _places(tree: ast.Module) -> Places:
-    names = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
-    found = [place for node in ast.walk(tree) if (place := _part(node, names))]
+    names = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
+    found = [place for node in walk(tree) if (place := _part(node, names))]
     found += [place for function in _functions(tree) for place in _restarted(function)]
     if not names & CLOCKS:
         found += [place for function in _functions(tree) for place in _counted(function)]
@@ -34,18 +34,16 @@ def _places(tree: ast.Module) -> Places:
 
 
 def _functions(tree: ast.AST) -> list[ast.FunctionDef]:
-    return [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name != "__init__"]
+    return [node for node in walk(tree) if isinstance(node, ast.FunctionDef) and node.name != "__init__"]
 
 
 def _counted(function: ast.FunctionDef) -> list[dict[str, Any]]:
     """Return where a function adds a constant to a variable that outlives it, outside of loops."""
-    looped = {
-        id(inner) for node in ast.walk(function) if isinstance(node, ast.For | ast.While) for inner in ast.walk(node)
-    }
-    kept = {name for node in ast.walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names}
+    looped = {id(inner) for node in walk(function) if isinstance(node, ast.For | ast.While) for inner in walk(node)}
+    kept = {name for node in walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names}
     return [
         _place(node, "ticks")
-        for node in ast.walk(function)
+        for node in walk(function)
         if id(node) not in looped and (target := _adds(node)) is not None
         if isinstance(target, ast.Attribute) or (isinstance(target, ast.Name) and target.id in kept)
     ]
@@ -63,7 +61,7 @@ def _restarted(function: ast.FunctionDef) -> list[dict[str, Any]]:
             and isinstance(each.op, ast.Sub)
             and (ast.unparse(each.left), ast.unparse(each.right)) == (now, start)
             and each.lineno > node.lineno
-            for each in ast.walk(function)
+            for each in walk(function)
         ):
             found.append(_place(node, "restart"))
     return found

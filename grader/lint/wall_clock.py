@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from gz_course.grader.lint.syntax import Places, places_in
+from gz_course.grader.lint.syntax import Places, places_in, walk
 
 ASKED = frozenset(
     f"time.{name}{unit}" for name in ("time", "monotonic", "perf_counter", "process_time") for unit in ("", "_ns")
@@ -28,7 +28,7 @@ def wall_clock(content: bytes) -> Places:
 def _places(tree: ast.Module) -> Places:
     names = imported(tree)
     found: list[dict[str, Any]] = []
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Call) and (call := dotted(node.func, names)) in ASKED | WAITED:
             ros = call == "rclpy.clock.Clock" and any("ROS_TIME" in ast.unparse(each) for each in _arguments(node))
             if not ros:
@@ -39,7 +39,7 @@ def _places(tree: ast.Module) -> Places:
 def imported(tree: ast.Module) -> dict[str, str]:
     """Return the full name of each imported name: `from time import monotonic as now` gives now: time.monotonic."""
     names: dict[str, str] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Import):
             names |= {alias.asname or alias.name.partition(".")[0]: alias.name for alias in node.names if alias.asname}
             names |= {alias.name.partition(".")[0]: alias.name.partition(".")[0] for alias in node.names}

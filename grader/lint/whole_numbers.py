@@ -13,7 +13,7 @@ from typing import Any
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.lint.numpy_numbers import numpy_numbers
-from gz_course.grader.lint.syntax import Places, places_in
+from gz_course.grader.lint.syntax import Places, places_in, walk
 
 MOST = 5  # places reported at most
 FLOATS = frozenset({"float", "double"})
@@ -61,12 +61,10 @@ def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> Places:
 def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str, Any]]:
     known = _constants(tree)
     # A field named `data` may belong to a message of whole numbers or texts, if the file uses one.
-    others = any(
-        isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in ast.walk(tree)
-    )
+    others = any(isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in walk(tree))
     paths = {path for owner in fields.values() for path in owner if "." in path or (len(owner) == 1 and not others)}
     yield from numpy_numbers(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign | ast.AnnAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             for target in targets:
@@ -89,7 +87,7 @@ def _is_message(target: ast.Attribute, path: str) -> bool:
 def _constants(tree: ast.Module) -> set[str]:
     """Return the names and attributes to which only whole numbers other than zero are assigned."""
     whole: dict[str, bool] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 name = ast.unparse(target)

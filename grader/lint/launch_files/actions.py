@@ -9,7 +9,7 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import called, last_name
+from gz_course.grader.lint.syntax import called, last_name, walk
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
 MAIN = "generate_launch_description"
@@ -52,9 +52,9 @@ def functions_without_effect(file: LaunchFile) -> Iterator[Place]:
     for node in file.tree.body:
         if not isinstance(node, ast.FunctionDef) or node.name == MAIN:
             continue
-        if not any(_is_action(each) for each in ast.walk(node)):
+        if not any(_is_action(each) for each in walk(node)):
             continue
-        returned = [each for each in ast.walk(node) if isinstance(each, ast.Return) and each.value is not None]
+        returned = [each for each in walk(node) if isinstance(each, ast.Return) and each.value is not None]
         if node.name not in file.used:
             yield node.lineno, f"the function {node.name} makes actions, but nothing calls it"
         elif node.name in opaque and not returned:
@@ -127,7 +127,7 @@ def waited_for_and_never_started(file: LaunchFile) -> Iterator[Place]:
 
 def endless(*parts: ast.AST) -> str:
     """Return the name of the program that an action starts, if it is a simulator or a bridge; else nothing."""
-    said = [text(each) for part in parts for each in ast.walk(part)]
+    said = [text(each) for part in parts for each in walk(part)]
     if {"gz", "sim"} <= set(said) or any(each.startswith("gz sim") for each in said):
         return "gz sim"
     return next((name for name in ENDLESS if name in said), "")
@@ -135,14 +135,14 @@ def endless(*parts: ast.AST) -> str:
 
 def _own_node(parts: Iterable[ast.AST], nodes: Mapping[str, bytes]) -> str:
     """Return the name of the student's program that an action starts, if it spins and does not end by itself."""
-    names = {text(each).rpartition("/")[2] for part in parts for each in ast.walk(part)} & nodes.keys()
+    names = {text(each).rpartition("/")[2] for part in parts for each in walk(part)} & nodes.keys()
     for name in sorted(names):
         try:
             tree = ast.parse(nodes[name])
         except (SyntaxError, ValueError, RecursionError):
             continue
-        own = [each for each in ast.walk(tree) if isinstance(each, ast.ClassDef)]
-        inside = {last_name(each) for part in own for each in ast.walk(part)}
+        own = [each for each in walk(tree) if isinstance(each, ast.ClassDef)]
+        inside = {last_name(each) for part in own for each in walk(part)}
         if "spin" in called(tree) and not inside & ENDS:
             return name
     return ""
@@ -150,12 +150,12 @@ def _own_node(parts: Iterable[ast.AST], nodes: Mapping[str, bytes]) -> str:
 
 def _starts(then: ast.expr, file: LaunchFile) -> bool:
     """Whether an expression holds actions that start something, itself or by a name or a function of the file."""
-    for each in ast.walk(then):
+    for each in walk(then):
         value = file.value(each) if isinstance(each, ast.Name) else each
-        if value is not None and any(last_name(part) in PROCESSES for part in ast.walk(value)):
+        if value is not None and any(last_name(part) in PROCESSES for part in walk(value)):
             return True
         own = [node for node in file.tree.body if isinstance(node, ast.FunctionDef) and node.name == last_name(each)]
-        if any(last_name(part) in PROCESSES for node in own for part in ast.walk(node)):
+        if any(last_name(part) in PROCESSES for node in own for part in walk(node)):
             return True
     return False
 
@@ -180,7 +180,7 @@ def swapped_conditions(file: LaunchFile) -> Iterator[Place]:
         kind, name = last_name(condition.func), file.configuration(condition.args[0])
         if kind not in ("IfCondition", "UnlessCondition") or not name.startswith("pause"):
             continue
-        words = [text(each) for part in (*call.args, *call.keywords) for each in ast.walk(part)]
+        words = [text(each) for part in (*call.args, *call.keywords) for each in walk(part)]
         if not endless(call) or any("$" in word for word in words):
             continue
         runs = any("-r" in word.split() for word in words)
@@ -204,7 +204,7 @@ def declared_too_late(file: LaunchFile) -> Iterator[Place]:
             if not isinstance(action, ast.Call) or last_name(action.func) != "OpaqueFunction":
                 continue
             function = own.get(last_name(argument(action, "function", 0) or action.func))
-            asked = {text(each) for each in ast.walk(function)} if function is not None else set()
+            asked = {text(each) for each in walk(function)} if function is not None else set()
             for other in actions[place + 1 :]:
                 if isinstance(other, ast.Call) and last_name(other.func) == "DeclareLaunchArgument":
                     name = text(argument(other, "name", 0))

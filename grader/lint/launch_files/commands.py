@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import last_name
+from gz_course.grader.lint.syntax import last_name, walk
 
 SIM_TIME = "use_sim_time"
 OPTION = re.compile(r"--?[a-zA-Z]")
@@ -47,7 +47,7 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
                     f"{ast.unparse(word)[:60]} is one word here, with a space in it: the program gets it as a single "
                     f"argument, which it does not know. {glued} and its value are two items of the list",
                 )
-            elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in ast.walk(word)):
+            elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in walk(word)):
                 yield (
                     word.lineno,
                     "file name and --ros-args are one word here, with spaces in it: each word of a command is an item "
@@ -91,7 +91,7 @@ def _joined(word: ast.expr | None) -> bool:
     method = word.func if isinstance(word, ast.Call) else None
     if not isinstance(method, ast.Attribute) or method.attr != "join" or text(method.value) != " ":
         return False
-    words = [each for part in word.args for each in ast.walk(part)] if isinstance(word, ast.Call) else []
+    words = [each for part in word.args for each in walk(part)] if isinstance(word, ast.Call) else []
     return any(OPTION.match(text(each)) for each in words)
 
 
@@ -135,7 +135,7 @@ def detached(file: LaunchFile) -> Iterator[Place]:
     """Find a program that is started where Ctrl-C does not reach it."""
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
         given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
-        for node in (each for part in given if part is not None for each in ast.walk(part)):
+        for node in (each for part in given if part is not None for each in walk(part)):
             for word in text(node).split():
                 if word in DETACH and isinstance(node, ast.Constant):
                     yield (
@@ -170,7 +170,7 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
         if arguments is not None and "config_file" not in ast.unparse(call):
             yield from _file_as_topic(file, arguments)
         elif arguments is not None and "--ros-args" not in ast.unparse(file.value(arguments) or arguments):
-            for each in ast.walk(file.value(arguments) or arguments):
+            for each in walk(file.value(arguments) or arguments):
                 if text(each).startswith("config_file:=") and isinstance(each, ast.Constant):
                     yield (
                         each.lineno,
@@ -201,7 +201,7 @@ def _file_as_topic(file: LaunchFile, arguments: ast.expr) -> Iterator[Place]:
     """Find the bridge's file among its arguments, which are topics."""
     given = file.value(arguments)
     for word in given.elts if isinstance(given, ast.List | ast.Tuple) else []:
-        if any(text(each).endswith((".yaml", ".yml")) for part in file.parts(word) for each in ast.walk(part)):
+        if any(text(each).endswith((".yaml", ".yml")) for part in file.parts(word) for each in walk(part)):
             yield (
                 word.lineno,
                 "the arguments of parameter_bridge are topics; its file is the value of its parameter config_file: "
@@ -222,7 +222,7 @@ def variables_of_the_shell(file: LaunchFile) -> Iterator[Place]:
     names = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")} - {""}
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         given = argument(call, "cmd", 0)
-        for node in ast.walk(given) if given is not None else ():
+        for node in walk(given) if given is not None else ():
             for name in re.findall(r"\$\{?(\w+)", text(node)):
                 if name in names and isinstance(node, ast.Constant):
                     yield (
@@ -238,7 +238,7 @@ def parameters_in_the_environment(file: LaunchFile) -> Iterator[Place]:
         own = last_name(call.func) == "SetEnvironmentVariable"
         given = [argument(call, "env"), argument(call, "additional_env"), argument(call, "name", 0) if own else None]
         for part in given:
-            if part is not None and any(text(each).lower() == SIM_TIME for each in ast.walk(file.value(part) or part)):
+            if part is not None and any(text(each).lower() == SIM_TIME for each in walk(file.value(part) or part)):
                 yield (
                     part.lineno,
                     f"{SIM_TIME} is a parameter of a node, and no environment variable: the words of its command are "
@@ -250,7 +250,7 @@ def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
     """Find a SetParameter that is to reach a program which no Node starts."""
     programs = []
     for call in file.calls("ExecuteProcess"):
-        words = [text(each) for part in (*call.args, *call.keywords) for each in ast.walk(part)]
+        words = [text(each) for part in (*call.args, *call.keywords) for each in walk(part)]
         if any(word.endswith(".py") for word in words) and not any(SIM_TIME in word for word in words):
             programs.append(call)
     for call in file.calls("SetParameter", "SetUseSimTime"):
@@ -279,7 +279,7 @@ def glued_parts(file: LaunchFile) -> Iterator[Place]:
     """Find options and a value in gz_args that are joined without a space."""
     for call in file.calls("IncludeLaunchDescription"):
         given = file.value(argument(call, "launch_arguments", 1))
-        lists = [each for each in ast.walk(given) if isinstance(each, ast.List)] if given is not None else []
+        lists = [each for each in walk(given) if isinstance(each, ast.List)] if given is not None else []
         for parts in lists:
             for one, other in zip(parts.elts, parts.elts[1:], strict=False):
                 said = text(one)
@@ -296,14 +296,14 @@ def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
     if any(text(each) == "gz_args" for each in file.nodes):
         return
     for call in file.calls("IncludeLaunchDescription"):
-        parts = [file.value(each) if isinstance(each, ast.Name) else each for each in ast.walk(call)]
-        if not any("gz_sim.launch.py" in text(each) for part in parts if part for each in ast.walk(part)):
+        parts = [file.value(each) if isinstance(each, ast.Name) else each for each in walk(call)]
+        if not any("gz_sim.launch.py" in text(each) for part in parts if part for each in walk(part)):
             continue
         given = file.value(argument(call, "launch_arguments", 1))
         if given is None:
             yield call.lineno, "gz_sim.launch.py gets no gz_args here, so gz sim gets no world and no -r"
             continue
-        keys = [text(key) for each in ast.walk(given) if isinstance(each, ast.Dict) for key in each.keys if key]
+        keys = [text(key) for each in walk(given) if isinstance(each, ast.Dict) for key in each.keys if key]
         if keys and all(keys):
             yield (
                 given.lineno,

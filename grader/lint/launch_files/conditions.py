@@ -8,6 +8,7 @@ from typing import Any
 
 from gz_course.grader.lint.launch_files.actions import MAIN, endless
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument
+from gz_course.grader.lint.syntax import walk
 
 STARTS = ("ExecuteProcess", "ExecuteLocal", "Node", "IncludeLaunchDescription")
 GROUPS = ("GroupAction", "TimerAction", "RegisterEventHandler")
@@ -32,12 +33,12 @@ def _actions(file: LaunchFile, programs: tuple[str, ...]) -> Iterator[dict[str, 
     grouped: dict[int, str] = {}
     for group in file.calls(*GROUPS):
         if condition := argument(group, "condition"):
-            grouped |= {id(each): ast.unparse(condition) for part in file.parts(group) for each in ast.walk(part)}
+            grouped |= {id(each): ast.unparse(condition) for part in file.parts(group) for each in walk(part)}
     decided = {
         id(each)
         for node in file.nodes
         if isinstance(node, DECIDES) or (isinstance(node, ast.FunctionDef) and node.name != MAIN)
-        for each in ast.walk(node)
+        for each in walk(node)
     }
     for call in file.calls(*STARTS):
         if endless(call) in programs and id(call) not in decided:

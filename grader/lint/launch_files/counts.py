@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.launch_files.reading import PROCESSES, LaunchFile, argument, text
-from gz_course.grader.lint.syntax import functions, last_name
+from gz_course.grader.lint.syntax import functions, last_name, walk
 
 ROUND = ("enumerate", "list", "tuple", "sorted", "reversed", "items", "keys", "values")
 
@@ -17,12 +17,12 @@ def fixed_counts(file: LaunchFile) -> Iterator[dict[str, Any]]:
 
     Actions of `create` that the file holds one by one are counted, too.
     """
-    makers = {f.name for f in functions(file.tree) if any(_starts(each) for each in ast.walk(f))}
+    makers = {f.name for f in functions(file.tree) if any(_starts(each) for each in walk(f))}
     loops = [node for node in file.nodes if isinstance(node, ast.For | ast.ListComp | ast.GeneratorExp)]
     inside = set[int]()
     for loop in loops:
         parts = loop.body if isinstance(loop, ast.For) else [loop.elt]
-        calls = [each for part in parts for each in ast.walk(part) if isinstance(each, ast.Call)]
+        calls = [each for part in parts for each in walk(part) if isinstance(each, ast.Call)]
         inside |= {id(each) for each in calls}
         if not any(_starts(each) or last_name(each.func) in makers for each in calls):
             continue
@@ -36,7 +36,7 @@ def fixed_counts(file: LaunchFile) -> Iterator[dict[str, Any]]:
             said = f"{ast.unparse(call)[:60]} is never more than {numbers[0]}"
             yield {"line": call.lineno, "count": numbers[0], "said": said}
     made = [call for call in file.calls("Node") if text(argument(call, "executable", 0)) == "create"]
-    in_functions = {id(each) for f in functions(file.tree) if f.name in makers for each in ast.walk(f)}
+    in_functions = {id(each) for f in functions(file.tree) if f.name in makers for each in walk(f)}
     written = [call for call in made if id(call) not in inside and (id(call) not in in_functions or len(made) > 1)]
     if len(written) > 1:
         said = f"the file holds {len(written)} actions of create, one by one"

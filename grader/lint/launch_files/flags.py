@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, text
+from gz_course.grader.lint.syntax import walk
 
 PAUSED = "paused"
 TRUE = re.compile(r"^\s*(['\"])(.*?)\1\s+if\b(.*?)\belse\s*(['\"])(.*?)\4\s*$")
@@ -26,7 +27,7 @@ def runs_when_paused(file: LaunchFile) -> Iterator[Place]:
     for node in file.nodes:
         if not isinstance(node, ast.IfExp) or not _asks_for_paused(file, node.test):
             continue
-        first, second = ([text(each) for each in ast.walk(part)] for part in (node.body, node.orelse))
+        first, second = ([text(each) for each in walk(part)] for part in (node.body, node.orelse))
         if _exchanged(" ".join(first), " ".join(second)):
             yield node.lineno, _words("-r")
 

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import called, calls, last_name
+from gz_course.grader.lint.syntax import called, calls, last_name, walk
 
 PUSHES = ("PushRosNamespace", "PushROSNamespace")
 CREATES = ("create_subscription", "create_publisher", "create_client", "create_service")
@@ -34,15 +34,15 @@ def pushed_without_group(file: LaunchFile) -> Iterator[Place]:
 
 def _again_and_again(file: LaunchFile, call: ast.Call) -> bool:
     """Whether a call is in a loop, or in a function that is called in one."""
-    around = [each.name for each in file.nodes if isinstance(each, ast.FunctionDef) and call in ast.walk(each)]
+    around = [each.name for each in file.nodes if isinstance(each, ast.FunctionDef) and call in walk(each)]
     loops = [each for each in file.nodes if isinstance(each, LOOPS)]
-    return any(call in ast.walk(loop) or called(loop) & set(around) for loop in loops)
+    return any(call in walk(loop) or called(loop) & set(around) for loop in loops)
 
 
 def groups_for_processes(file: LaunchFile) -> Iterator[Place]:
     """Find a namespace that is pushed in a group whose only programs are processes, which do not get it."""
     for group in file.calls("GroupAction"):
-        parts = [each for part in file.parts(group) for each in ast.walk(part)]
+        parts = [each for part in file.parts(group) for each in walk(part)]
         names = {last_name(each.func) for each in parts if isinstance(each, ast.Call)}
         started = [each for each in parts if isinstance(each, ast.Call) and last_name(each.func) == "ExecuteProcess"]
         push = next((each for each in parts if isinstance(each, ast.Call) and last_name(each.func) in PUSHES), None)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from functools import cached_property
 
-from gz_course.grader.lint.syntax import last_name
+from gz_course.grader.lint.syntax import last_name, walk
 
 Place = tuple[int, str]
 PROCESSES = frozenset({"Node", "LifecycleNode", "ExecuteProcess", "ExecuteLocal", "IncludeLaunchDescription"})
@@ -34,7 +34,7 @@ class LaunchFile:
 
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
-        self.nodes = list(ast.walk(tree))
+        self.nodes = list(walk(tree))
 
     def calls(self, *names: str) -> Iterator[ast.Call]:
         """Yield the calls of these classes or functions, in the order of the lines."""
@@ -75,7 +75,7 @@ class LaunchFile:
         """Return an expression, and all that the names in it stand for, one after another."""
         found, seen = [node], set[str]()
         for each in found:
-            names = {part.id for part in ast.walk(each) if isinstance(part, ast.Name)} - seen
+            names = {part.id for part in walk(each) if isinstance(part, ast.Name)} - seen
             seen |= names
             found += [value for name in sorted(names) for value in self.assigned.get(name, ())]
         return found

@@ -13,6 +13,7 @@ from itertools import pairwise
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.lint.launch_files.unread import OF_EVERY_NODE, declared_parameters
+from gz_course.grader.lint.syntax import walk
 
 PARAMETER = ("-p", "--param")
 RULE = ("-r", "--remap")
@@ -26,10 +27,10 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         given = argument(call, "cmd", 0)
         words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
-        if None in words or any("--ros-args" in text(each) for word in words if word for each in ast.walk(word)):
+        if None in words or any("--ros-args" in text(each) for word in words if word for each in walk(word)):
             continue
         for before, word in pairwise(word for word in words if word is not None):
-            said = "".join(text(each) for each in ast.walk(word))
+            said = "".join(text(each) for each in walk(word))
             if text(before) in PARAMETER + RULE and ":=" in said:
                 option = f"{text(before)} {said if text(word) else ast.unparse(word)}"
                 yield (
@@ -59,7 +60,7 @@ def nested_parameters(file: LaunchFile) -> Iterator[Place]:
     for call in file.calls("Node", "LifecycleNode"):
         given = argument(call, "parameters")
         for part in file.parts(given) if given is not None else ():
-            for table in (each for each in ast.walk(part) if isinstance(each, ast.Dict)):
+            for table in (each for each in walk(part) if isinstance(each, ast.Dict)):
                 if any(key is not None and text(key) == "ros__parameters" for key in table.keys):
                     yield (
                         table.lineno,
@@ -74,7 +75,7 @@ def quoted_truths(file: LaunchFile) -> Iterator[Place]:
     for call in file.calls("Node", "LifecycleNode"):
         given = argument(call, "parameters")
         for part in file.parts(given) if given is not None else ():
-            for table in (each for each in ast.walk(part) if isinstance(each, ast.Dict)):
+            for table in (each for each in walk(part) if isinstance(each, ast.Dict)):
                 for key, value in zip(table.keys, table.values, strict=True):
                     if key is not None and text(key) == "use_sim_time" and text(value):
                         yield (
@@ -90,7 +91,7 @@ def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         given = argument(call, "cmd", 0)
         words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
-        names = {text(each).rpartition("/")[2] for word in words if word for each in ast.walk(word)}
+        names = {text(each).rpartition("/")[2] for word in words if word for each in walk(word)}
         program = next(iter(sorted(names & nodes.keys())), "")
         known = declared_parameters(nodes[program]) if program else set()
         for before, word in pairwise(words) if known else ():
@@ -113,7 +114,7 @@ def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:
     found: dict[int, ast.AST] = {}
     for node in file.nodes:  # outer functions come before inner ones
         if isinstance(node, ast.FunctionDef):
-            found |= {id(each): node for each in ast.walk(node) if isinstance(each, ast.Call)}
+            found |= {id(each): node for each in walk(node) if isinstance(each, ast.Call)}
     return found
 
 
@@ -136,7 +137,7 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     """Return the lists that a function puts together under a name, or that the file assigns once; else nothing."""
     found: list[tuple[int, ast.expr]] = []
     grows = [(name, method) for method in GROWS]
-    for node in ast.walk(scope) if scope is not file.tree else ():
+    for node in walk(scope) if scope is not file.tree else ():
         if isinstance(node, ast.Assign | ast.AugAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             if name in [ast.unparse(target) for target in targets]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
-from gz_course.grader.lint.syntax import last_name
+from gz_course.grader.lint.syntax import last_name, walk
 
 SIM_TIME = "use_sim_time"
 
@@ -43,7 +43,7 @@ def programs(file: LaunchFile) -> Iterator[dict[str, Any]]:
 
 def _texts(file: LaunchFile, call: ast.Call) -> set[str]:
     """Return all texts of an action, those that its names stand for too."""
-    return {text(each) for part in file.parts(call) for each in ast.walk(part)} - {""}
+    return {text(each) for part in file.parts(call) for each in walk(part)} - {""}
 
 
 def _unknown(file: LaunchFile, call: ast.Call) -> Iterator[bool]:

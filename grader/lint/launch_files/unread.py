@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import calls, last_name
+from gz_course.grader.lint.syntax import calls, last_name, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 IN_A_TEXT = re.compile(r"\$\(var (\w+)\)")
@@ -60,9 +60,9 @@ def braces_without_f(file: LaunchFile) -> Iterator[Place]:
 def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
     """Find a parameter that the launch file gives a node of the submission, which declares others only."""
     for call in file.calls("Node", "ExecuteProcess"):
-        words = {text(each).rpartition("/")[2] for part in (*call.args, *call.keywords) for each in ast.walk(part)}
+        words = {text(each).rpartition("/")[2] for part in (*call.args, *call.keywords) for each in walk(part)}
         for part in (file.value(each.value) for each in call.keywords):
-            words |= {text(each).rpartition("/")[2] for each in ast.walk(part)} if part is not None else set()
+            words |= {text(each).rpartition("/")[2] for each in walk(part)} if part is not None else set()
         program = next(iter(sorted(words & nodes.keys())), "")
         known = declared_parameters(nodes[program]) if program else set()
         for name, line in _given(file, call):
@@ -81,7 +81,7 @@ def for_another_program(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterato
     """Find a parameter that is given to one program of the submission, and declared by another one only."""
     declared = {name: declared_parameters(content) for name, content in nodes.items()}
     for call in file.calls("Node"):
-        words = {text(each).rpartition("/")[2] for part in file.parts(call) for each in ast.walk(part)}
+        words = {text(each).rpartition("/")[2] for part in file.parts(call) for each in walk(part)}
         program = next(iter(sorted(words & nodes.keys())), "")
         if not program or b"parameter" in nodes[program]:
             continue

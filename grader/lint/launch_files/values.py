@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import last_name
+from gz_course.grader.lint.syntax import last_name, walk
 
 TRUTHS = frozenset({"True", "False"})
 EQUALS = frozenset({"EqualsSubstitution", "NotEqualsSubstitution", "LaunchConfigurationEquals"})
@@ -114,7 +114,7 @@ def python_truths(file: LaunchFile) -> Iterator[Place]:
             if truths := [text(each) for each in node.args if text(each) in TRUTHS]:
                 yield node.lineno, f"{_code(node)}: {_small(truths[0])}"
         elif isinstance(node, ast.Call) and last_name(node.func) == "PythonExpression":
-            said = "".join(text(each) for each in ast.walk(node))
+            said = "".join(text(each) for each in walk(node))
             match = PYTHON_TRUTH.search(said)
             if match and not re.search(r"['\"](?:true|false)['\"]|lower|upper|capitalize|title", said):
                 yield node.lineno, f"this expression compares with '{match[1]}': {_small(match[1])}"
@@ -159,7 +159,7 @@ def fixed_worlds(file: LaunchFile) -> Iterator[Place]:
     """Find the names of worlds that stand as texts in a command or in `gz_args`, where an argument could decide."""
     for call in file.calls("ExecuteProcess", "Node", "IncludeLaunchDescription"):
         for given in (argument(call, "cmd", 0), argument(call, "arguments"), argument(call, "launch_arguments", 1)):
-            for node in ast.walk(given) if given is not None else ():
+            for node in walk(given) if given is not None else ():
                 part = file.value(node) if isinstance(node, ast.Name) else node
                 if isinstance(part, ast.Constant) and (match := WORLD.search(text(part).strip())):
                     yield part.lineno, match[1]

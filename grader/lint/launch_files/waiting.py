@@ -9,7 +9,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, text
-from gz_course.grader.lint.syntax import assigned, last_name
+from gz_course.grader.lint.syntax import assigned, last_name, walk
 
 WAIT = frozenset({"run", "call", "check_call", "check_output", "getoutput", "getstatusoutput", "system"})
 MODULES = frozenset({"subprocess", "os"})
@@ -77,7 +77,7 @@ def _words(file: LaunchFile, command: ast.expr) -> list[str]:
     parts = [command]
     if isinstance(command, ast.Name):
         parts = [value for target, value in assigned(file.tree) if last_name(target) == command.id]
-    texts = [each for part in parts for each in ast.walk(part) if text(each)]
+    texts = [each for part in parts for each in walk(part) if text(each)]
     texts.sort(key=lambda each: (getattr(each, "lineno", 0), getattr(each, "col_offset", 0)))
     return [word for each in texts for word in text(each).split()]
 

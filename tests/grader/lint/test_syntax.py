@@ -1,8 +1,11 @@
 """What cannot be parsed or looked at has no places: it never ends a grading."""
 
+import ast
+
 import pytest
 
 from gz_course.grader.lint.slips import slips
+from gz_course.grader.lint.syntax import walk
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import whole_numbers
@@ -32,3 +35,11 @@ def test_a_file_that_is_far_longer_than_any_solution_has_no_places():
     assert slips(slip + b"x = 1\n" * 20_000) == []
     nested = b"\n".join(b" " * depth + b"def f(self):" for depth in range(90)) + b"\n"
     assert slips(slip + nested + (b" " * 90 + b"self.f(1)\n") * 200) == []
+
+
+def test_a_tree_is_walked_once_and_stays_as_it_is():
+    source = "def f(x):\n    return [x + 1 for x in (1, 2)]"
+    tree = ast.parse(source)
+    assert list(walk(tree)) == list(ast.walk(tree))
+    assert walk(tree) is walk(tree)
+    assert ast.unparse(tree) == source

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 
 MOST_STEPS = 100_000  # added at most; no timer of a run fires that often
 
@@ -19,7 +19,7 @@ def compared_exactly(tree: ast.AST) -> Iterator[Place]:
     """Find `elapsed == 1.0` where elapsed is only set to a number and to itself plus a step."""
     known = named_numbers(tree)
     steps = _steps(tree, known)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
             continue
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
@@ -63,7 +63,7 @@ def _steps(tree: ast.AST, known: dict[str, Number]) -> dict[str, tuple[Number, N
     """Return start and step of each name that is only ever set to one number, and to itself plus one number."""
     starts: dict[str, set[Number | None]] = {}
     added: dict[str, set[Number | None]] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 name = ast.unparse(target)

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 from gz_course.grader.lint.wall_clock import ASKED, dotted, imported
 
 OF_STAMPS = re.compile(r"\bheader\.stamp\b|\.nanosec\b|get_clock\(\)\.now\(\)")
@@ -17,7 +17,7 @@ def mixed(tree: ast.Module) -> Iterator[Place]:
     """Find `time.time() - stamp` and comparisons of the two, also by way of names."""
     names = imported(tree)
     values = _values(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
             sides = node.left, node.right
         elif isinstance(node, ast.Compare) and len(node.ops) == 1:
@@ -37,7 +37,7 @@ def mixed(tree: ast.Module) -> Iterator[Place]:
 
 def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
     found: dict[str, list[ast.expr]] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
             found.setdefault(ast.unparse(node.targets[0]), []).append(node.value)
     return found
@@ -45,14 +45,14 @@ def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
 
 def _known(node: ast.AST, values: dict[str, list[ast.expr]]) -> Iterator[ast.expr]:
     """Yield what is assigned to the names in an expression."""
-    for each in ast.walk(node):
+    for each in walk(node):
         if isinstance(each, ast.Name | ast.Attribute):
             yield from values.get(ast.unparse(each), [])
 
 
 def _wall(node: ast.AST, values: dict[str, list[ast.expr]], names: dict[str, str], steps: int) -> str:
     """Return the call that reads the computer's clock in an expression; empty if none does."""
-    for each in ast.walk(node):
+    for each in walk(node):
         if isinstance(each, ast.Call) and dotted(each.func, names) in ASKED - {"rclpy.clock.Clock"}:
             return ast.unparse(each.func)
     found = (_wall(each, values, names, steps - 1) for each in _known(node, values)) if steps else iter(())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from gz_course.grader.lint.syntax import Place, assigned, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, functions, last_name, walk
 
 
 def updated_too_early(tree: ast.AST) -> Iterator[Place]:
@@ -25,7 +25,7 @@ def _in_block(
     for statement in body:
         inner = [getattr(statement, name, []) for name in ("body", "orelse", "finalbody")]
         heads = [each for each in ast.iter_child_nodes(statement) if isinstance(each, ast.expr)]
-        for node in (each for head in heads for each in ast.walk(head)):
+        for node in (each for head in heads for each in walk(head)):
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
                 left, right = ast.unparse(node.left), ast.unparse(node.right)
                 for one, other in ((right, left), (left, right)):

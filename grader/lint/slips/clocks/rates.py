@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
 
 IN_SECONDS = re.compile(r"1e-?0?9|10\s*\*\*\s*-?9|1_?000_?000_?000(?:\.0)?|1000000000")
 ERROR = re.compile(r"err|diff|dev", re.IGNORECASE)
@@ -20,7 +20,7 @@ def per_nanosecond(tree: ast.AST) -> Iterator[Place]:
     times = _times(tree)
     values = {ast.unparse(target): value for target, value in assigned(tree)}
     spans = {name: value for name, value in values.items() if _is_span(value, times)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Div | ast.Mult):
             continue
         for one, span in ((node.left, node.right), (node.right, node.left)):

@@ -7,13 +7,13 @@ import math
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Place, last_name
+from gz_course.grader.lint.syntax import Place, last_name, walk
 
 
 def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
     """Find the nanoseconds within a second compared with a whole second or more, which they never reach."""
     numbers = named_numbers(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare) or len(node.ops) != 1:
             continue
         limit = number(node.comparators[0], numbers)
@@ -29,7 +29,7 @@ def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
 def sums_of_parts(tree: ast.AST) -> Iterator[Place]:
     """Find a sum of seconds and nanoseconds in which the second part has another unit than the first."""
     numbers, names = named_numbers(tree), _names_of_parts(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
             continue
         for one, other in ((node.left, node.right), (node.right, node.left)):
@@ -46,7 +46,7 @@ def sums_of_parts(tree: ast.AST) -> Iterator[Place]:
 def _names_of_parts(tree: ast.AST) -> dict[str, str]:
     """Return which part of a time a name holds, for those that take the two of `seconds_nanoseconds()`."""
     names: dict[str, str] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.Assign(
                 targets=[ast.Tuple(elts=[one, other])],
@@ -76,15 +76,15 @@ def _factor(node: ast.expr, part: str, names: Mapping[str, str], numbers: Mappin
 
 def nanoseconds_alone(tree: ast.AST) -> Iterator[Place]:
     """Find the nanoseconds of a stamp used as its time, in a file that reads the seconds nowhere."""
-    names = {last_name(node) for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    names = {last_name(node) for node in walk(tree) if isinstance(node, ast.Attribute)}
     if names & {"sec", "seconds_nanoseconds"}:
         return
     copied = {
         id(node.value)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and last_name(node.targets[0]) == "nanosec"
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         read = isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr == "nanosec"
         if read and id(node) not in copied:
             yield (

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, functions
+from gz_course.grader.lint.syntax import Place, assigned, functions, walk
 
 TIME = re.compile(r"\bnow\b|clock|stamp|nanosec|time", re.IGNORECASE)  # in what makes a time
 LONG = 1.0  # [s] or more is no time between two calls
@@ -21,10 +21,10 @@ def set_anew(tree: ast.AST) -> Iterator[Place]:
             if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Attribute)
         }
         since: dict[str, str] = {}  # name of a difference -> its start
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.Assign) and (start := _start(node.value, always)):
                 since[ast.unparse(node.targets[0])] = start
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Compare) or not _is_long(node.comparators[0]):
                 continue
             start = _start(node.left, always) or since.get(ast.unparse(node.left), "")
@@ -39,7 +39,7 @@ def set_anew(tree: ast.AST) -> Iterator[Place]:
 
 def _start(value: ast.expr, always: dict[str, ast.Assign]) -> str:
     """Return the start of which a time is the difference, if each call sets it to the same end."""
-    for node in ast.walk(value):
+    for node in walk(value):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
             start, end = ast.unparse(node.right), ast.unparse(node.left)
             if start in always and ast.unparse(always[start].value) == end:
@@ -50,7 +50,7 @@ def _start(value: ast.expr, always: dict[str, ast.Assign]) -> str:
 def _is_long(value: ast.expr) -> bool:
     """Return whether an expression is a number, or a Duration, of a second or more."""
     numbers = [
-        each.value for each in ast.walk(value) if isinstance(each, ast.Constant) and isinstance(each.value, int | float)
+        each.value for each in walk(value) if isinstance(each, ast.Constant) and isinstance(each.value, int | float)
     ]
     return any(number >= LONG for number in numbers)
 
@@ -59,7 +59,7 @@ def added_up(tree: ast.AST) -> Iterator[Place]:
     """Find `self.driven += now - self.start` in a callback that does not set the start anew."""
     once = {
         ast.unparse(target)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.If) and _asks_for_none(node.test)
         for statement in node.body
         for target, value in assigned(statement)
@@ -68,16 +68,16 @@ def added_up(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         inside = {
             id(each)
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.If) and _asks_for_none(node.test)
             for statement in node.body
-            for each in ast.walk(statement)
+            for each in walk(statement)
         }
         again = {ast.unparse(target) for target, value in assigned(function) if id(value) not in inside}
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
                 continue
-            for each in ast.walk(node.value):
+            for each in walk(node.value):
                 if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub):
                     start = ast.unparse(each.right)
                     if start in once - again and start.startswith("self."):

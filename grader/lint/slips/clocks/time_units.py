@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 
 UNITS = {1e-9: "nanoseconds", 1e-6: "microseconds", 1e-3: "milliseconds", 1.0: "seconds", 60.0: "minutes"}
 SHORTEST = 0.02  # [s] a shorter time, written in another unit than seconds, is compared with by mistake
@@ -26,7 +26,7 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons of a time with a number that is no usual time in the unit of the former."""
     numbers = named_numbers(tree)
     values = _values(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare) or len(node.ops) != 1:
             continue
         if isinstance(node.ops[0], ast.Eq) and _lasts(node.left, values) != _lasts(node.comparators[0], values):
@@ -52,7 +52,7 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
 
 def _is_age(node: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) -> bool:
     """Return whether a time is the age of a message, which is reckoned from a stamp."""
-    parts = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
     if any(isinstance(each, ast.Attribute) and each.attr == "stamp" for each in parts):
         return True
     known = {ast.unparse(each) for each in parts} & values.keys() if steps else set()
@@ -81,7 +81,7 @@ def _said(unit: float, limit: Number, seconds: float) -> str:
 
 
 def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] != "Duration":
             continue
         seconds = 0.0
@@ -98,7 +98,7 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
 def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
     """Find a Time that is asked whether it equals a number, which it never does."""
     numbers, values = named_numbers(tree), _values(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
             continue
         code = ast.unparse(node.left)
@@ -119,11 +119,11 @@ def negative_times(tree: ast.AST) -> Iterator[Place]:
     fresh = {name: given for name, given in values.items() if not name.startswith("self.")}
     inside_abs = {
         id(inner)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in ("abs", "fabs")
-        for inner in ast.walk(node)
+        for inner in walk(node)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub) or id(node) in inside_abs:
             continue
         left, right = ast.unparse(node.left), ast.unparse(node.right)
@@ -169,15 +169,13 @@ def _was_read(node: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) 
 def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
     """Return what is assigned to each name and attribute; the results of functions by `name()`."""
     found: dict[str, list[ast.expr]] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
             found.setdefault(ast.unparse(node.targets[0]), []).append(node.value)
         elif isinstance(node, ast.AnnAssign | ast.NamedExpr) and node.value is not None:
             found.setdefault(ast.unparse(node.target), []).append(node.value)
         elif isinstance(node, ast.FunctionDef):
-            returned = [
-                each.value for each in ast.walk(node) if isinstance(each, ast.Return) and each.value is not None
-            ]
+            returned = [each.value for each in walk(node) if isinstance(each, ast.Return) and each.value is not None]
             found.setdefault(f"{node.name}()", []).extend(returned)
     return found
 

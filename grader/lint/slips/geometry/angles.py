@@ -8,14 +8,14 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
 
 
 def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Call):
             owner, _, name = ast.unparse(node.func).rpartition(".")
             if owner in ("", "math", "np", "numpy"):
@@ -74,7 +74,7 @@ def _axis(node: ast.expr) -> str:
 
 def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
     """Find `yaw = orientation.z`: the z of a quaternion is the sine of half the angle."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute):
             continue
         target, value = ast.unparse(node.targets[0]), ast.unparse(node.value)

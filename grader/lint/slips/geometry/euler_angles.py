@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
 
 MAKES = "euler_from_quaternion"
 HEADING = re.compile(r"yaw|heading|theta|\bth\b")
@@ -22,7 +22,7 @@ def other_angle(tree: ast.AST) -> Iterator[Place]:
     if MAKES in {function.name for function in functions(tree)}:
         return  # one of the student's own may return them in any order
     names = {ast.unparse(target) for target, value in assigned(tree) if _is_euler(value)}
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Assign)):
+    for node in (each for each in walk(tree) if isinstance(each, ast.Assign)):
         target, value = node.targets[0], node.value
         if isinstance(target, ast.Tuple | ast.List) and len(target.elts) == len(ORDER):
             if _is_euler(value) or ast.unparse(value) in names:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions, last_name
+from gz_course.grader.lint.syntax import Place, functions, last_name, walk
 
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
 MASKS = frozenset({"isfinite", "isnan", "isinf", "logical_and", "logical_or", "logical_not"})
@@ -19,7 +19,7 @@ def numbered_after_filtering(tree: ast.AST) -> Iterator[Place]:
     """Find `angle_increment * np.arange(len(good))`, where `good` holds only some of the ranges, and the like."""
     for function in functions(tree):
         kinds = _Kinds(function)
-        for node in ast.walk(function):
+        for node in walk(function):
             match node:
                 case ast.BinOp(op=ast.Mult(), left=left, right=right):
                     for one, other in ((left, right), (right, left)):
@@ -46,7 +46,7 @@ class _Kinds:
 
     def __init__(self, function: ast.FunctionDef) -> None:
         self.known: list[tuple[int, str, str]] = []  # line, name, kind
-        nodes = (node for node in ast.walk(function) if isinstance(node, ast.Assign | ast.For))
+        nodes = (node for node in walk(function) if isinstance(node, ast.Assign | ast.For))
         for node in sorted(nodes, key=lambda each: each.lineno):
             if isinstance(node, ast.For):
                 self._loop(node)

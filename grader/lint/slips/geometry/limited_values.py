@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.language.own_calls import calls_of_own, parameters
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
 
 Values = Mapping[str, float]
 COMPARED: dict[type[ast.cmpop], Callable[[float, float], bool]] = {
@@ -136,9 +136,9 @@ def _either_sign(node: ast.expr, local: Mapping[str, list[ast.expr]], depth: int
     """Say whether an expression may well be negative: a sum or a difference, or a name that was given one."""
     if isinstance(node, ast.Name) and depth and len(local.get(node.id, [])) == 1:
         return _either_sign(local[node.id][0], local, depth - 1)
-    if any(isinstance(each, ast.Call) and last_name(each.func) in ("abs", "hypot") for each in ast.walk(node)):
+    if any(isinstance(each, ast.Call) and last_name(each.func) in ("abs", "hypot") for each in walk(node)):
         return False
-    return any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Add | ast.Sub) for each in ast.walk(node))
+    return any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Add | ast.Sub) for each in walk(node))
 
 
 def _values_in_functions(tree: ast.AST) -> dict[int, dict[str, list[ast.expr]]]:

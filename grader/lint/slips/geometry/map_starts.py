@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned
+from gz_course.grader.lint.syntax import Place, assigned, walk
 
 
 def first_position_subtracted(tree: ast.AST) -> Iterator[Place]:
@@ -13,15 +13,15 @@ def first_position_subtracted(tree: ast.AST) -> Iterator[Place]:
 
     Who adds the start again, or also uses the position as it is, may have a use for the difference.
     """
-    used = {each.value for each in ast.walk(tree) if isinstance(each, ast.Constant) and isinstance(each.value, str)}
-    names = {each.id for each in ast.walk(tree) if isinstance(each, ast.Name)}
+    used = {each.value for each in walk(tree) if isinstance(each, ast.Constant) and isinstance(each.value, str)}
+    names = {each.id for each in walk(tree) if isinstance(each, ast.Name)}
     if "OccupancyGrid" not in names or not used & {"odom", "/odom"}:
         return
-    parent = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
+    parent = {child: node for node in walk(tree) for child in ast.iter_child_nodes(node)}
     raw = _positions(tree)
     kept = {name for name in _kept_once(tree, raw) if _only_subtracted(name, tree, parent)}
     left: dict[ast.AST, ast.BinOp] = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and _root(node.right) in kept:
             left[node.left] = node
     found = [left[each] for each in raw if each in left]
@@ -39,17 +39,17 @@ def _positions(tree: ast.AST) -> list[ast.AST]:
     places = {ast.unparse(to) for to, value in assigned(tree) if ast.unparse(value).endswith("pose.position")}
     read = [
         node
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Attribute) and node.attr in ("x", "y") and isinstance(node.ctx, ast.Load)
         if ast.unparse(node.value) in places or ast.unparse(node.value).endswith("pose.position")
     ]
     of_attributes = set(read)
     named = {to.id: value for to, value in assigned(tree) if isinstance(to, ast.Name) and value in of_attributes}
-    stored = [node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)]
+    stored = [node.id for node in walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)]
     named = {name: value for name, value in named.items() if stored.count(name) == 1}
     loads = [
         node
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Name) and node.id in named and isinstance(node.ctx, ast.Load)
     ]
     return [*(node for node in read if node not in named.values()), *loads]
@@ -71,16 +71,16 @@ def _kept_once(tree: ast.AST, raw: list[ast.AST]) -> set[str]:
     others: set[str] = set()
     once = {
         id(each)
-        for test in ast.walk(tree)
+        for test in walk(tree)
         if isinstance(test, ast.If) and _holds_once(test)
         for statement in test.body
-        for each in ast.walk(statement)
+        for each in walk(statement)
     }
     for to, value in assigned(tree):
         name = _root(to)
         if not name:
             continue
-        if id(value) in once and positions & set(ast.walk(value)):
+        if id(value) in once and positions & set(walk(value)):
             kept.add(name)
         elif not isinstance(value, ast.Constant) and not (isinstance(value, ast.Tuple) and not value.elts):
             others.add(name)
@@ -100,7 +100,7 @@ def _holds_once(test: ast.If) -> bool:
 
 def _only_subtracted(name: str, tree: ast.AST, parent: dict[ast.AST, ast.AST]) -> bool:
     """Return whether an attribute is read only behind a minus sign, or in a test of whether it is set."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not (isinstance(node, ast.Attribute) and ast.unparse(node) == name and isinstance(node.ctx, ast.Load)):
             continue
         whole: ast.AST = node

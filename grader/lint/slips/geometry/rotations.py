@@ -9,7 +9,7 @@ import ast
 import math
 from collections.abc import Iterator, Mapping
 
-from gz_course.grader.lint.syntax import Place, assigned, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, functions, last_name, walk
 
 SOME = 0.7  # [rad] at which a pair is tried
 APART = 3  # lines between the two
@@ -24,9 +24,9 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
             for target, value in assigned(function)
             if isinstance(value, ast.Call) and last_name(value.func) in ("cos", "sin")
         }
-        parts = {id(each) for node in ast.walk(function) if _is_sum(node) for each in ast.iter_child_nodes(node)}
+        parts = {id(each) for node in walk(function) if _is_sum(node) for each in ast.iter_child_nodes(node)}
         sums = sorted(
-            (node for node in ast.walk(function) if isinstance(node, ast.BinOp) and id(node) not in parts),
+            (node for node in walk(function) if isinstance(node, ast.BinOp) and id(node) not in parts),
             key=lambda node: (node.lineno, node.col_offset, -(node.end_col_offset or 0)),
         )
         rows = [(node, *found) for node in sums if (found := _row(node, waves)) is not None]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions
+from gz_course.grader.lint.syntax import Place, functions, walk
 
 LARGE = 50.0  # more than what a lidar of a small robot measures [m]
 LIMITS = frozenset({"range_min", "range_max"})
@@ -17,13 +17,13 @@ def begins_at_an_end(tree: ast.AST) -> Iterator[Place]:
         if ".ranges" not in ast.unparse(function):
             continue  # what is searched may be no distance
         first: dict[str, tuple[int, float]] = {}
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
                 name = node.targets[0].id
                 value = node.value.value if isinstance(node.value, ast.Constant) else None
                 if name not in first and type(value) in (int, float):
                     first[name] = node.lineno, float(value)  # type: ignore[arg-type]
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
             for name, smallest in _searched(loop):
                 line, value = first.get(name, (0, float("nan")))
                 if smallest and line and line < loop.lineno and value <= 0:
@@ -42,9 +42,9 @@ def begins_at_an_end(tree: ast.AST) -> Iterator[Place]:
 
 def _searched(loop: ast.For) -> Iterator[tuple[str, bool]]:
     """Yield each name that a loop sets to the value it is compared with, and whether to the smaller one."""
-    for node in ast.walk(loop):
+    for node in walk(loop):
         if isinstance(node, ast.If):
-            for each in ast.walk(node.test):
+            for each in walk(node.test):
                 if not isinstance(each, ast.Compare):
                     continue
                 sides = [each.left, *each.comparators]
@@ -73,12 +73,12 @@ def _sets(node: ast.If, name: str, value: ast.expr) -> bool:
 
 def numbers_for_ranges(tree: ast.AST) -> Iterator[Place]:
     """Find the number of a ray that is compared with range_min or range_max."""
-    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.For | ast.comprehension)):
+    for loop in (node for node in walk(tree) if isinstance(node, ast.For | ast.comprehension)):
         name = _number(loop)
         within = loop if isinstance(loop, ast.For) else tree
-        tests = [each for each in ast.walk(within) if isinstance(each, ast.Compare)] if name else []
+        tests = [each for each in walk(within) if isinstance(each, ast.Compare)] if name else []
         if isinstance(loop, ast.comprehension):
-            tests = [each for test in loop.ifs for each in ast.walk(test) if isinstance(each, ast.Compare)]
+            tests = [each for test in loop.ifs for each in walk(test) if isinstance(each, ast.Compare)]
         for test in tests:
             sides = [test.left, *test.comparators]
             limits = any(isinstance(side, ast.Attribute) and side.attr in LIMITS for side in sides)

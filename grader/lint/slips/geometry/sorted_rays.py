@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions
+from gz_course.grader.lint.syntax import Place, functions, walk
 
 FINDS = frozenset({"index", "argmin", "nanargmin"})
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
@@ -21,8 +21,8 @@ def places_for_rays(tree: ast.AST) -> Iterator[Place]:
     """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
     for function in functions(tree):
         found = dict(_places(function, dict(_changed_lists(function))))
-        stored = [node.id for node in ast.walk(function) if isinstance(node, ast.Name) and _is_store(node)]
-        for node in ast.walk(function):
+        stored = [node.id for node in walk(function) if isinstance(node, ast.Name) and _is_store(node)]
+        for node in walk(function):
             if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
                 continue
             sides = ast.unparse(node.left), ast.unparse(node.right)
@@ -43,7 +43,7 @@ def _is_store(node: ast.Name) -> bool:
 
 def _changed_lists(function: ast.FunctionDef) -> Iterator[tuple[str, str]]:
     """Yield the names of lists of plain ranges that are not as the scan has them, and what was done to them."""
-    for node in ast.walk(function):
+    for node in walk(function):
         match node:
             case ast.Assign(targets=[target], value=value) if how := _done(value, {}):
                 yield ast.unparse(target), how
@@ -97,7 +97,7 @@ def _plain(node: ast.AST) -> bool:
 
 def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[str, tuple[int, str, str]]]:
     """Yield each name that holds a place in such a list, with the line, the expression and what was done to it."""
-    for node in ast.walk(function):
+    for node in walk(function):
         match node:
             case (
                 ast.For(iter=call, target=ast.Tuple(elts=[index, *_]))
@@ -117,14 +117,14 @@ def places_in_masked(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         masked: dict[str, str] = {}
         found: dict[str, tuple[str, str]] = {}
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.Assign) and len(node.targets) == 1:
                 name, value = ast.unparse(node.targets[0]), node.value
                 if mask := _mask(value, masked):
                     masked[name] = mask
                 if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
                     found[name] = (ast.unparse(value), mask)
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Subscript)):
+        for node in (each for each in walk(function) if isinstance(each, ast.Subscript)):
             of, place = ast.unparse(node.value), node.slice
             what, mask = found.get(ast.unparse(place), ("", ""))
             if isinstance(place, ast.Call) and _finds(place):

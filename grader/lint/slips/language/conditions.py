@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.slips.language.unreached import blocks
-from gz_course.grader.lint.syntax import Place, assigned, functions
+from gz_course.grader.lint.syntax import Place, assigned, functions, walk
 
 ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}
@@ -16,7 +16,7 @@ MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}
 def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
     """Find `x > 0 or x < 5`, which always holds, and `x > 5 and x < 0`, which never does."""
     numbers = named_numbers(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.Compare(left=low, ops=[ast.Lt() | ast.LtE(), ast.Lt() | ast.LtE()], comparators=[_, high]):
                 if _order(low, high, numbers) > 0:
@@ -41,7 +41,7 @@ def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
 
 def the_same_bound(tree: ast.AST) -> Iterator[Place]:
     """Find `low <= x <= low`, which only one value meets, or none."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.Compare(left=low, ops=[one, other], comparators=[_, high]) if type(one) in MIRRORED:
                 same = (type(one) in ABOVE) == (type(other) in ABOVE) and ast.unparse(low) == ast.unparse(high)
@@ -88,11 +88,11 @@ def none_for_ever(tree: ast.AST) -> Iterator[Place]:
         values.setdefault(ast.unparse(target).rpartition(".")[2], []).append(value)
     others = {
         ast.unparse(target).rpartition(".")[2]
-        for node in ast.walk(tree)
+        for node in walk(tree)
         for target in [getattr(node, "target", None), *[getattr(each, "optional_vars", None) for each in _items(node)]]
         if isinstance(target, ast.expr) and not isinstance(node, ast.AnnAssign)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         name = _asked(node.test) if isinstance(node, ast.If) else ""
         last = name.rpartition(".")[2]
         if not name.startswith("self.") or last in others or "setattr" in ast.unparse(tree):
@@ -137,7 +137,7 @@ def none_again(tree: ast.AST) -> Iterator[Place]:
                 )
                 return
             changed = {ast.unparse(target) for target, _ in assigned(statement)}
-            changed |= {ast.unparse(each.target) for each in ast.walk(statement) if hasattr(each, "target")}
+            changed |= {ast.unparse(each.target) for each in walk(statement) if hasattr(each, "target")}
             none = {each: line for each, line in none.items() if each not in changed}
             match statement:
                 case ast.Assign(targets=[ast.Name(id=made)], value=ast.Constant(value=None)):
@@ -147,7 +147,7 @@ def none_again(tree: ast.AST) -> Iterator[Place]:
 def implied(tree: ast.AST) -> Iterator[Place]:
     """Find `elif x >= 5:` below `if x >= 0:`, which leaves nothing for it."""
     numbers = named_numbers(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If) or len(node.orelse) != 1 or not isinstance(node.orelse[0], ast.If):
             continue
         other = node.orelse[0]
@@ -174,7 +174,7 @@ def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
                 case ast.Assign(targets=[target], value=ast.BinOp(left=begin, op=ast.Add())):
                     ends[ast.unparse(target)] = statement.lineno, ast.unparse(begin)
                     continue
-            for node in ast.walk(statement):
+            for node in walk(statement):
                 if not isinstance(node, ast.Compare) or len(node.ops) != 1 or type(node.ops[0]) not in MIRRORED:
                     continue
                 sides = [ast.unparse(node.left), ast.unparse(node.comparators[0])]
@@ -190,16 +190,16 @@ def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
 
 def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
     """Find `if late and not self.moving:` where self.moving begins as True and only that block changes it."""
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         changes: dict[str, list[tuple[ast.expr, ast.expr]]] = {}
         for target, value in assigned(owner):
             changes.setdefault(ast.unparse(target), []).append((target, value))
-        for node in ast.walk(owner):
+        for node in walk(owner):
             if not isinstance(node, ast.If) or not isinstance(node.test, ast.BoolOp):
                 continue
             if not isinstance(node.test.op, ast.And):
                 continue
-            inside = {id(each) for statement in node.body for each in ast.walk(statement)}
+            inside = {id(each) for statement in node.body for each in walk(statement)}
             for part in node.test.values:
                 negated = isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not)
                 name = ast.unparse(part.operand if isinstance(part, ast.UnaryOp) else part)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.nodes.callbacks import handed_over
-from gz_course.grader.lint.syntax import Place, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, calls, functions, last_name, walk
 
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
 ACTIONS = frozenset({
@@ -19,7 +19,7 @@ MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 
 def constructors(tree: ast.AST) -> Iterator[Place]:
-    for each in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for each in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         for node in each.body:
             wrong = isinstance(node, ast.FunctionDef) and node.name.strip("_") in ("init", "int", "ini")
             if isinstance(node, ast.FunctionDef) and wrong and node.name.startswith("_") and node.name != "__init__":
@@ -46,7 +46,7 @@ def main_not_called(tree: ast.Module) -> Iterator[Place]:
 def not_called(tree: ast.AST) -> Iterator[Place]:
     """Find a statement that only names a function, such as `self.timer.cancel`, or a method of the file."""
     own = {f"self.{function.name}" for function in functions(tree) if not function.decorator_list}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Attribute | ast.Name):
             name = ast.unparse(node.value)
             if name.rpartition(".")[2] in ACTIONS | {"main"} or name in own:
@@ -85,7 +85,7 @@ def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
 def long_sleeps(tree: ast.AST) -> Iterator[Place]:
     """Find a sleep of minutes with a publish() behind it in its block, which hardly waits for that."""
     known = named_numbers(tree)
-    for block in (node.body for node in ast.walk(tree) if isinstance(node, ast.Module | ast.FunctionDef)):
+    for block in (node.body for node in walk(tree) if isinstance(node, ast.Module | ast.FunctionDef)):
         for place, statement in enumerate(block):
             call = statement.value if isinstance(statement, ast.Expr) else None
             if not isinstance(call, ast.Call) or last_name(call.func) != "sleep" or not call.args:
@@ -101,7 +101,7 @@ def long_sleeps(tree: ast.AST) -> Iterator[Place]:
 
 
 def decimal_commas(tree: ast.AST) -> Iterator[Place]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         values: list[ast.expr] = []
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
             bare = node.value.col_offset == node.value.elts[0].col_offset if node.value.elts else False  # no brackets
@@ -123,7 +123,7 @@ def _comma(values: list[ast.expr]) -> str:
 
 def sets_for_numbers(tree: ast.AST) -> Iterator[Place]:
     """Find `{x}` where a number or a text belongs: braces make a set outside of an f-string."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         values: list[ast.expr] = []
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
             values = [node.value] if node.targets[0].attr in MESSAGE_FIELDS else []
@@ -147,15 +147,15 @@ def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
 
 
 def strengths(tree: ast.AST) -> Iterator[Place]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Attribute) and node.attr == "intensities":
             yield node.lineno, "intensities are how strong the echoes are; how far the points are [m] is in ranges"
 
 
 def stray_methods(tree: ast.AST) -> Iterator[Place]:
     """Find a function with the parameter self that stands outside of a class, because of its indentation."""
-    owned = {id(node) for each in ast.walk(tree) if isinstance(each, ast.ClassDef) for node in each.body}
-    for node in ast.walk(tree):
+    owned = {id(node) for each in walk(tree) if isinstance(each, ast.ClassDef) for node in each.body}
+    for node in walk(tree):
         if not isinstance(node, ast.FunctionDef) or id(node) in owned or node.decorator_list:
             continue
         if [each.arg for each in node.args.args[:1]] == ["self"]:
@@ -173,18 +173,18 @@ def blocking(tree: ast.AST) -> Iterator[Place]:
         for call, given in handed_over(tree)
         if ast.unparse(call.func).endswith((".create_timer", ".create_subscription"))
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.FunctionDef) or node.name not in handed:
             continue
         rates = [call for call, name in calls(node) if name == "create_rate"]
-        for inner in ast.walk(node):
+        for inner in walk(node):
             if not isinstance(inner, ast.While):
                 continue
             names = {name for _, name in calls(inner)}
             if names & {"spin_once", "spin_some"}:
                 continue
             endless = isinstance(inner.test, ast.Constant) and not any(
-                isinstance(each, ast.Break | ast.Return) for each in ast.walk(inner)
+                isinstance(each, ast.Break | ast.Return) for each in walk(inner)
             )
             only_waits = names and not names - {"ok", "now", "get_clock", "publish", "info"}
             if rates or "sleep" in names or only_waits or (not names and endless):

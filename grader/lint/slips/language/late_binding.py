@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 
 Function = ast.Lambda | ast.FunctionDef
 # What keeps a function that it is given, and calls it later. `sorted` and `map` call it at once.
@@ -23,7 +23,7 @@ Comprehension = ast.ListComp | ast.GeneratorExp | ast.SetComp | ast.DictComp
 
 def late_bound(tree: ast.AST) -> Iterator[Place]:
     """Find a function that reads the variable of a loop when the loop has given it its last value."""
-    for loop in ast.walk(tree):
+    for loop in walk(tree):
         parts: Sequence[ast.AST]
         if isinstance(loop, ast.For):
             parts, bound = loop.body, _stored(loop.target)
@@ -75,15 +75,15 @@ def _stored(part: ast.AST) -> set[str]:
 
 def _read(function: Function) -> set[str]:
     body = function.body if isinstance(function.body, list) else [function.body]
-    names = (each for part in body for each in ast.walk(part) if isinstance(each, ast.Name))
+    names = (each for part in body for each in walk(part) if isinstance(each, ast.Name))
     return {each.id for each in names if isinstance(each.ctx, ast.Load)}
 
 
 def _own_names(function: Function) -> set[str]:
     """Return the names that a function binds itself: its parameters, and what it assigns."""
-    bound = {each.arg for each in ast.walk(function) if isinstance(each, ast.arg)}
+    bound = {each.arg for each in walk(function) if isinstance(each, ast.arg)}
     return bound | {
-        each.id for each in ast.walk(function) if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)
+        each.id for each in walk(function) if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)
     }
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
 
 
 def _taken(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[str, ast.With]]:
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.With):
             for item in node.items:
                 if (name := ast.unparse(item.context_expr)) in locks:
@@ -24,7 +24,7 @@ def taken_twice(tree: ast.AST) -> Iterator[Place]:
         if isinstance(value, ast.Call) and last_name(value.func) == "Lock"
     }
     takers = {(function.name, name) for function in functions(tree) for name, _ in _taken(function, locks)}
-    classes = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    classes = [node for node in walk(tree) if isinstance(node, ast.ClassDef)]
     methods = {function.name for owner in classes for function in owner.body if isinstance(function, ast.FunctionDef)}
     for function in functions(tree):
         for lock, held in _taken(function, locks):

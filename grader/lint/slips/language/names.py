@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assignments
+from gz_course.grader.lint.syntax import Place, assignments, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 def _classes(tree: ast.AST) -> Iterator[ast.ClassDef]:
-    return (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
+    return (node for node in walk(tree) if isinstance(node, ast.ClassDef))
 
 
 def _methods(owner: ast.ClassDef) -> list[Function]:
@@ -21,7 +21,7 @@ def _methods(owner: ast.ClassDef) -> list[Function]:
 def _attributes(node: ast.AST, context: type[ast.expr_context]) -> dict[str, int]:
     """Return the attributes of self that are read or set within a node, with the line of the first."""
     found: dict[str, int] = {}
-    for each in ast.walk(node):
+    for each in walk(node):
         if isinstance(each, ast.Attribute) and isinstance(each.ctx, context) and ast.unparse(each.value) == "self":
             found.setdefault(each.attr, each.lineno)
     return found
@@ -32,10 +32,8 @@ def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
     for owner in _classes(tree):
         read, never_set = _attributes(owner, ast.Load), _never_changed(owner)
         for method in _methods(owner):
-            kept = {
-                name for node in ast.walk(method) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
-            }
-            names = [node for node in ast.walk(method) if isinstance(node, ast.Name)]
+            kept = {name for node in walk(method) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names}
+            names = [node for node in walk(method) if isinstance(node, ast.Name)]
             loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)} | kept
             for target, node in assignments(method):
                 if not isinstance(target, ast.Name) or target.id not in read:
@@ -53,9 +51,9 @@ def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
 def _never_changed(owner: ast.ClassDef) -> set[str]:
     """Return the attributes that are set to None, True or False once, in `__init__`, and to nothing else anywhere."""
     found: dict[str, list[str]] = {}
-    for node in ast.walk(owner):
+    for node in walk(owner):
         for target in node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]:
-            for each in ast.walk(target) if isinstance(target, ast.expr) else ():
+            for each in walk(target) if isinstance(target, ast.expr) else ():
                 if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self":
                     value = ast.unparse(node.value) if isinstance(node, ast.Assign) else ""
                     found.setdefault(each.attr, []).append(value)
@@ -67,7 +65,7 @@ def hidden_methods(tree: ast.AST) -> Iterator[Place]:
     """Find an attribute with the name of a method of the same class, which is then no method any more."""
     for owner in _classes(tree):
         methods = {method.name: method.lineno for method in _methods(owner) if not method.decorator_list}
-        for node in ast.walk(owner):
+        for node in walk(owner):
             if not isinstance(node, ast.Assign):
                 continue
             for target in node.targets:
@@ -98,7 +96,7 @@ def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
     """Find a counter or flag that is set on the class and read on the object, or the other way round."""
     for owner in _classes(tree):
         objects = _attributes(owner, ast.Store)
-        sums = [node.target for node in ast.walk(owner) if isinstance(node, ast.AugAssign)]
+        sums = [node.target for node in walk(owner) if isinstance(node, ast.AugAssign)]
         for target in [*sums, *(target for target, _ in assignments(owner))]:
             if isinstance(target, ast.Attribute) and ast.unparse(target.value) == owner.name and target.attr in objects:
                 yield (
@@ -113,7 +111,7 @@ def one_name_for_two_timers(tree: ast.AST) -> Iterator[Place]:
     for owner in _classes(tree):
         cancelled = {
             ast.unparse(node.value)
-            for node in ast.walk(owner)
+            for node in walk(owner)
             if isinstance(node, ast.Attribute) and node.attr in ("cancel", "reset")
         }
         for method in _methods(owner):
@@ -142,16 +140,16 @@ def local_for_global(tree: ast.AST) -> Iterator[Place]:
         for target in statement.targets
         if isinstance(target, ast.Name)
     }
-    every = [node for node in ast.walk(tree) if isinstance(node, Function)]
+    every = [node for node in walk(tree) if isinstance(node, Function)]
     reads: dict[str, int] = {}
     for function in every:
-        names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
+        names = [node for node in walk(function) if isinstance(node, ast.Name)]
         own = {node.id for node in names if isinstance(node.ctx, ast.Store)} - _declared(function)
         for node in names:
             if isinstance(node.ctx, ast.Load) and node.id in module - own - _arguments(function):
                 reads.setdefault(node.id, node.lineno)
     for function in every:
-        names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
+        names = [node for node in walk(function) if isinstance(node, ast.Name)]
         loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
         for target, statement in assignments(function):
             name = target.id if isinstance(target, ast.Name) else ""
@@ -165,12 +163,12 @@ def local_for_global(tree: ast.AST) -> Iterator[Place]:
 
 def _declared(function: Function) -> set[str]:
     return {
-        name for node in ast.walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
+        name for node in walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
     }  # fmt: skip
 
 
 def _arguments(function: Function) -> set[str]:
-    return {each.arg for each in ast.walk(function) if isinstance(each, ast.arg)}
+    return {each.arg for each in walk(function) if isinstance(each, ast.arg)}
 
 
 LOOKS = (

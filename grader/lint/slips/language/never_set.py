@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 LEAVES = ast.Return | ast.Continue | ast.Raise
@@ -16,7 +16,7 @@ PREVIOUS = re.compile(r"(^|_)(last|prev|previous|old|before)(_|$)")
 def waits_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.x is None: return` where nothing in the file sets `x` to anything else than None."""
     only_none, set_in = _values(tree)
-    if any(isinstance(each, ast.Name) and each.id in ("setattr", "vars") for each in ast.walk(tree)):
+    if any(isinstance(each, ast.Name) and each.id in ("setattr", "vars") for each in walk(tree)):
         return
     for function in _functions(tree):
         for test in (each for each in function.body if isinstance(each, ast.If)):
@@ -32,7 +32,7 @@ def waits_for_ever(tree: ast.AST) -> Iterator[Place]:
 
 
 def _functions(tree: ast.AST) -> list[Function]:
-    return [each for each in ast.walk(tree) if isinstance(each, Function)]
+    return [each for each in walk(tree) if isinstance(each, Function)]
 
 
 def _values(tree: ast.AST) -> tuple[set[str], dict[str, list[str]]]:
@@ -40,17 +40,17 @@ def _values(tree: ast.AST) -> tuple[set[str], dict[str, list[str]]]:
     none: dict[str, bool] = {}
     set_in: dict[str, list[str]] = {}
     for function in _functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Attribute) or not isinstance(node.ctx, ast.Store):
                 continue
-            made = next((each for each in ast.walk(function) if _makes(each, node)), None)
+            made = next((each for each in walk(function) if _makes(each, node)), None)
             value = getattr(made, "value", None)
             is_none = isinstance(made, ast.Assign | ast.AnnAssign) and value is not None and _is_none(value)
             none[node.attr] = none.get(node.attr, True) and is_none and function.name == "__init__"
             if function.name != "__init__":
                 set_in.setdefault(node.attr, []).append(function.name)
-    own = {id(each) for function in _functions(tree) for each in ast.walk(function)}
-    for node in ast.walk(tree):
+    own = {id(each) for function in _functions(tree) for each in walk(function)}
+    for node in walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
             inside = id(node) in own and isinstance(node.value, ast.Name) and node.value.id == "self"
             none[node.attr] = none.get(node.attr, True) and inside
@@ -92,18 +92,18 @@ def _twice(set_in: dict[str, list[str]]) -> str:
 
 def previous_stays(tree: ast.AST) -> Iterator[Place]:
     """Find `error - self.last_error` where nothing but `__init__` sets `last_error`, and it sets it to a number."""
-    if any(isinstance(each, ast.Name) and each.id in ("setattr", "vars") for each in ast.walk(tree)):
+    if any(isinstance(each, ast.Name) and each.id in ("setattr", "vars") for each in walk(tree)):
         return
     set_in: dict[str, list[str]] = {}
     first: dict[str, ast.expr] = {}
     for function in _functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.Attribute) and not isinstance(node.ctx, ast.Load):
                 set_in.setdefault(node.attr, []).append(function.name)
             if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
                 first[node.targets[0].attr] = node.value
     for function in _functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub) or function.name == "__init__":
                 continue
             for name in _own(node.right):

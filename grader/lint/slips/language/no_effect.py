@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.language.unreached import blocks
-from gz_course.grader.lint.syntax import Place, assignments, called, functions
+from gz_course.grader.lint.syntax import Place, assignments, called, functions, walk
 
 FUNCTIONS = frozenset({"rclpy.ok", "math.isfinite", "math.isnan", "math.isinf", "isfinite", "isnan", "isinf"})
 # Functions of math and NumPy.
@@ -23,7 +23,7 @@ MESSAGES = frozenset({
 
 def thrown_away(tree: ast.AST) -> Iterator[Place]:
     """Find a comparison or an arithmetic expression that is a statement of its own."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Expr):
             continue
         code = ast.unparse(node.value)[:60]
@@ -54,7 +54,7 @@ def _only_returns(call: ast.Call) -> bool:
 
 def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:
     """Find `x =+ 1`, which assigns +1."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.UnaryOp) and len(node.targets) == 1:
             operand = node.value.operand
             if isinstance(node.value.op, ast.UAdd) and isinstance(operand, ast.Constant):
@@ -96,7 +96,7 @@ def _published_again(function: ast.FunctionDef, statement: ast.stmt, name: str) 
 
 
 def _statements(tree: ast.AST) -> Iterator[ast.stmt]:
-    return (each for each in ast.walk(tree) if isinstance(each, ast.stmt))
+    return (each for each in walk(tree) if isinstance(each, ast.stmt))
 
 
 def _published(statement: ast.stmt) -> str:
@@ -115,12 +115,12 @@ def _makes(statement: ast.stmt, name: str) -> bool:
 def never_sent(tree: ast.AST) -> Iterator[Place]:
     """Find a message that a function makes and at most fills, and hands to nobody."""
     for function in functions(tree):
-        loads = [n for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
+        loads = [n for n in walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
         bases = {
             id(inner)
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)
-            for inner in ast.walk(node)
+            for inner in walk(node)
         }
         for target, node in assignments(function):
             if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
@@ -136,7 +136,7 @@ def never_sent(tree: ast.AST) -> Iterator[Place]:
 
 def always_true(tree: ast.AST) -> Iterator[Place]:
     """Find `state == 'go' or 'turn'`, whose second half is always true."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If | ast.While | ast.IfExp | ast.Assert):
             continue
         for each in _alternatives(node.test):
@@ -170,10 +170,10 @@ def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
 def first_iteration(tree: ast.AST) -> Iterator[Place]:
     """Find a return at the end of the body of a loop that collects something: the loop ends at once."""
     for function in functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.For) or not isinstance(node.body[-1], ast.Return):
                 continue
-            if any(isinstance(each, ast.Continue | ast.Break) for each in ast.walk(node)):
+            if any(isinstance(each, ast.Continue | ast.Break) for each in walk(node)):
                 continue
             if _set_in(function.body, before=node.lineno) & _set_in(node.body, before=node.body[-1].lineno):
                 yield (
@@ -186,7 +186,7 @@ def first_iteration(tree: ast.AST) -> Iterator[Place]:
 def _set_in(block: list[ast.stmt], before: int) -> set[str]:
     """Return the names that are assigned in a block, or appended to, in lines before the given one."""
     names = set()
-    for node in (inner for statement in block for inner in ast.walk(statement)):
+    for node in (inner for statement in block for inner in walk(statement)):
         if getattr(node, "lineno", before) >= before:
             continue
         if isinstance(node, ast.Assign):
@@ -202,18 +202,18 @@ def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
     """Find a timer that is to end by losing its name, or by reset()."""
     timers = {
         ast.unparse(node.targets[0])
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and "create_timer" in called(node.value)
     }
     if "cancel" in called(tree) or "destroy_timer" in called(tree):
         return
     inits = {
         id(inner)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.FunctionDef) and node.name == "__init__"
-        for inner in ast.walk(node)
+        for inner in walk(node)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if id(node) in inits:
             continue
         lost = isinstance(node, ast.Assign) and ast.unparse(node.value) in ("None", "False")

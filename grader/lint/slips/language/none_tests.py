@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions
+from gz_course.grader.lint.syntax import Place, functions, walk
 
 
 def returns_when_there(tree: ast.AST) -> Iterator[Place]:
@@ -40,7 +40,7 @@ def _there(test: ast.expr) -> Iterator[str]:
 def _uses(body: list[ast.stmt], name: str) -> bool:
     """Return whether statements use parts of an attribute before one of them sets it."""
     for statement in body:
-        nodes = list(ast.walk(statement))
+        nodes = list(walk(statement))
         if any(isinstance(node, ast.Attribute) and _stores(node, name) for node in nodes):
             return False
         for node in nodes:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, functions, last_name, walk
 
 ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
 WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
@@ -17,13 +17,13 @@ SILENT = frozenset({"debug", "info"})
 def used_up(tree: ast.AST) -> Iterator[Place]:
     """Find a generator that is gone through twice: the second time it is empty."""
     for function in functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
             if not isinstance(target, ast.Name) or not isinstance(node, ast.Assign) or not _once(node.value):
                 continue
-            if sum(_is_store(each, target.id) for each in ast.walk(function)) > 1:
+            if sum(_is_store(each, target.id) for each in walk(function)) > 1:
                 continue
-            uses = sorted({line for each in ast.walk(function) if (line := _goes_through(each, target.id))})
+            uses = sorted({line for each in walk(function) if (line := _goes_through(each, target.id))})
             if len(uses) > 1:
                 yield (
                     uses[1],
@@ -56,13 +56,13 @@ def _goes_through(node: ast.AST, name: str) -> int:
 def same_object(tree: ast.AST) -> Iterator[Place]:
     """Find `hit.header = scan.header` and then `hit.header.frame_id = ...`, which changes the scan too."""
     for function in functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
                 continue
             target, value = ast.unparse(node.targets[0]), ast.unparse(node.value)
             if not isinstance(node.targets[0], ast.Attribute) or value.rpartition(".")[2] not in PARTS:
                 continue
-            for each in ast.walk(function):
+            for each in walk(function):
                 if not isinstance(each, ast.Assign) or each.lineno <= node.lineno:
                     continue
                 if ast.unparse(each.targets[0]).startswith(f"{target}."):
@@ -86,7 +86,7 @@ def identity(tree: ast.AST) -> Iterator[Place]:
         for target, value in assigned(tree)
         if isinstance(value, ast.Constant) and type(value.value) in (str, int, float)
     } - {""}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Is | ast.IsNot):
             continue
         sides = (node.left, node.comparators[0])
@@ -108,7 +108,7 @@ def identity(tree: ast.AST) -> Iterator[Place]:
 
 def repeated_rows(tree: ast.AST) -> Iterator[Place]:
     """Find `[[0] * width] * height`, whose rows are all the same list."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
             inner = node.left.elts[0] if len(node.left.elts) == 1 else None
             rows = isinstance(inner, ast.List | ast.ListComp | ast.Dict | ast.Set) or (
@@ -124,7 +124,7 @@ def repeated_rows(tree: ast.AST) -> Iterator[Place]:
 
 def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
     """Find `Time(seconds=stamp.sec)`, which leaves the nanoseconds out."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] not in ("Time", "Duration"):
             continue
         given = {each.arg: ast.unparse(each.value) for each in node.keywords}
@@ -138,10 +138,8 @@ def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
 
 def python_logging(tree: ast.AST) -> Iterator[Place]:
     """Find lines for the log that Python's own logging swallows, because nothing has set it up."""
-    imported = any(
-        isinstance(node, ast.Import) and any(a.name == "logging" for a in node.names) for node in ast.walk(tree)
-    )
-    calls = {ast.unparse(node.func): node.lineno for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    imported = any(isinstance(node, ast.Import) and any(a.name == "logging" for a in node.names) for node in walk(tree))
+    calls = {ast.unparse(node.func): node.lineno for node in walk(tree) if isinstance(node, ast.Call)}
     if not imported or any("basicConfig" in call or "addHandler" in call for call in calls):
         return
     for call, line in calls.items():
@@ -156,12 +154,12 @@ def python_logging(tree: ast.AST) -> Iterator[Place]:
 
 def zero_is_false(tree: ast.AST) -> Iterator[Place]:
     """Find `if not self.x:` where self.x begins as None and is later set to 0: it asks for None and for 0 alike."""
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         given: dict[str, list[object]] = {}
-        for node in ast.walk(owner):
+        for node in walk(owner):
             if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant):
                 given.setdefault(ast.unparse(node.targets[0]), []).append(node.value.value)
-        for node in ast.walk(owner):
+        for node in walk(owner):
             if isinstance(node, ast.If) and isinstance(node.test, ast.UnaryOp) and isinstance(node.test.op, ast.Not):
                 name = ast.unparse(node.test.operand)
                 values = given.get(name, [])

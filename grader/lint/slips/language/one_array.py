@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
 
 MAKES = frozenset({"zeros", "ones", "full", "empty", "array", "zeros_like", "list", "dict", "set"})
 CHANGES = frozenset({"append", "extend", "add", "update", "fill", "insert"})
@@ -16,7 +16,7 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
     changed = _changed(tree)
     made: set[str] = set()
     for function in (each for each in functions(tree) if each.name == "__init__"):
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Assign)):
+        for node in (each for each in walk(function) if isinstance(each, ast.Assign)):
             names = [ast.unparse(target) for target in node.targets]
             if _makes(node.value):
                 made |= set(names)
@@ -34,7 +34,7 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
 def one_local(tree: ast.AST) -> Iterator[Place]:
     """Find `misses = hits = set()` in a function that adds to both by different calls."""
     for function in functions(tree):
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Assign) and len(each.targets) > 1):
+        for node in (each for each in walk(function) if isinstance(each, ast.Assign) and len(each.targets) > 1):
             names = [each.id for each in node.targets if isinstance(each, ast.Name)]
             new = {ast.unparse(one) for one, _ in assigned(function) if one not in node.targets}
             added = [
@@ -79,7 +79,7 @@ def _changed(tree: ast.AST) -> set[str]:
 def _parts_set(function: ast.FunctionDef) -> set[str]:
     """Return the names of which parts are assigned."""
     found = set()
-    for node in ast.walk(function):
+    for node in walk(function):
         whole = node
         while isinstance(whole, ast.Subscript):
             whole = whole.value

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions, last_name
+from gz_course.grader.lint.syntax import Place, functions, last_name, walk
 
 EITHER = {"start", "goal", "end", "first", "second", "source", "target", "here", "there"}  # in both orders on purpose
 SYMMETRIC = re.compile(r"dist|between|near|close|same|apart|away|gap|length|swap|way|path|route|touch")
@@ -51,15 +51,15 @@ def calls_of_own(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, list[ast.Call
     defined = list(functions(tree))
     names = [function.name for function in defined]
     for function in defined:
-        own = {id(node) for node in ast.walk(function)}
+        own = {id(node) for node in walk(function)}
         if names.count(function.name) != 1 or any(
-            isinstance(node, ast.Call) and last_name(node.func) == function.name for node in ast.walk(function)
+            isinstance(node, ast.Call) and last_name(node.func) == function.name for node in walk(function)
         ):
             continue
         method = is_method(function)
         given = [
             node
-            for node in ast.walk(tree)
+            for node in walk(tree)
             if isinstance(node, ast.Call)
             and id(node) not in own
             and last_name(node.func) == function.name

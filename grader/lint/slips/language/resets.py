@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, walk
 
 SENT = frozenset({"publish", "info"})
 
@@ -47,7 +47,7 @@ def _sends(statement: ast.stmt, name: str) -> int:
     if not isinstance(statement, ast.Expr):
         return 0
     for call, what in calls(statement):
-        if what in SENT and any(ast.unparse(each) == name for given in _given(call) for each in ast.walk(given)):
+        if what in SENT and any(ast.unparse(each) == name for given in _given(call) for each in walk(given)):
             return call.lineno
     return 0
 
@@ -58,11 +58,9 @@ def _given(call: ast.Call) -> list[ast.expr]:
 
 def else_of_a_search(tree: ast.AST) -> Iterator[Place]:
     """Find `if r < best: best = r` in a loop whose else sets best to something that is not in the scan's own loop."""
-    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.For)):
-        values = {node.id for node in ast.walk(loop.target) if isinstance(node, ast.Name)}
-        for node in (
-            each for each in ast.walk(loop) if isinstance(each, ast.If) and isinstance(each.test, ast.Compare)
-        ):
+    for loop in (node for node in walk(tree) if isinstance(node, ast.For)):
+        values = {node.id for node in walk(loop.target) if isinstance(node, ast.Name)}
+        for node in (each for each in walk(loop) if isinstance(each, ast.If) and isinstance(each.test, ast.Compare)):
             sides = {ast.unparse(each) for each in (node.test.left, *node.test.comparators)}  # type: ignore[attr-defined]
             kept = {
                 ast.unparse(target)
@@ -72,7 +70,7 @@ def else_of_a_search(tree: ast.AST) -> Iterator[Place]:
             }
             for each in node.orelse:
                 for target, value in assigned(each) if isinstance(each, ast.Assign) else ():
-                    if ast.unparse(target) in kept and not values & {ast.unparse(part) for part in ast.walk(value)}:
+                    if ast.unparse(target) in kept and not values & {ast.unparse(part) for part in walk(value)}:
                         yield (
                             each.lineno,
                             f"{ast.unparse(each)[:60]} forgets what was found as soon as one value is no better: only "
@@ -82,9 +80,9 @@ def else_of_a_search(tree: ast.AST) -> Iterator[Place]:
 
 def search_of_another(tree: ast.AST) -> Iterator[Place]:
     """Find `if r < valid[0]: nearest = r` in a loop over valid, which compares with the first value, not the best."""
-    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.For) and isinstance(node.target, ast.Name)):
+    for loop in (node for node in walk(tree) if isinstance(node, ast.For) and isinstance(node.target, ast.Name)):
         first = f"{ast.unparse(loop.iter)}[0]"
-        for node in ast.walk(loop):
+        for node in walk(loop):
             if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
                 continue
             sides = {ast.unparse(each) for each in (node.test.left, *node.test.comparators)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, walk
 
 NEVER_RETURN = frozenset({"NotImplementedError", "abstractmethod"})
 
@@ -18,9 +18,9 @@ def no_return(tree: ast.AST) -> Iterator[Place]:
     inner = {
         id(each)
         for function in functions(tree)
-        for node in ast.walk(function)
+        for node in walk(function)
         if node is not function and isinstance(node, ast.FunctionDef | ast.Lambda | ast.AsyncFunctionDef)
-        for each in ast.walk(node)
+        for each in walk(node)
     }
     empty = {
         name: found[0]
@@ -49,13 +49,13 @@ def _gives_something(function: ast.FunctionDef, inner: set[int]) -> bool:
         or (
             isinstance(node, ast.Return) and node.value is not None and (id(node) not in inner or id(function) in inner)
         )
-        for node in ast.walk(function)
+        for node in walk(function)
     )
 
 
 def _used(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield the expressions of which a value is wanted: conditions, terms, sides of comparisons, what is published."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(operand=test):
                 yield test
@@ -101,10 +101,10 @@ def one_message(tree: ast.AST) -> Iterator[Place]:
 
 def not_called(tree: ast.AST) -> Iterator[Place]:
     """Find `if not self.over:` where over is a method: without brackets it is always true."""
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         methods = {each.name for each in owner.body if isinstance(each, ast.FunctionDef) and not each.decorator_list}
         kept = {ast.unparse(target) for target, _ in assigned(owner)}
-        for node in ast.walk(owner):
+        for node in walk(owner):
             match node:
                 case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(ast.Not(), test):
                     parts = [test]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, Places, functions, last_name, places_in
+from gz_course.grader.lint.syntax import Place, Places, functions, last_name, places_in, walk
 
 READ_ONCE = frozenset({"filter", "map", "zip", "reversed", "iter", "enumerate"})
 READERS = frozenset({
@@ -18,7 +18,7 @@ LEVELS = frozenset({"debug", "info", "warn", "warning", "error", "fatal"})
 def assigned(function: ast.FunctionDef) -> dict[str, list[ast.expr | None]]:
     """Return what is assigned to each name, in order; None for a loop variable or another change."""
     found: dict[str, list[ast.expr | None]] = {}
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
             found.setdefault(node.targets[0].id, []).append(node.value)
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
@@ -46,27 +46,25 @@ def read_twice(tree: ast.AST) -> Iterator[Place]:
 
 
 def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.Call) and last_name(node.func) in READERS:
             yield from (each for each in node.args if isinstance(each, ast.Name) and each.id == name)
         elif isinstance(node, ast.For | ast.comprehension) and ast.unparse(node.iter) == name:
-            ends = isinstance(node, ast.For) and any(
-                isinstance(each, ast.Break | ast.Return) for each in ast.walk(node)
-            )
+            ends = isinstance(node, ast.For) and any(isinstance(each, ast.Break | ast.Return) for each in walk(node))
             if not ends:
                 yield node.iter
 
 
 def changed_while_read(tree: ast.AST) -> Iterator[Place]:
     """Find a loop over a list that takes elements out of the same list, and goes on."""
-    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.For)):
+    for loop in (node for node in walk(tree) if isinstance(node, ast.For)):
         over = loop.iter
         if isinstance(over, ast.Call) and last_name(over.func) == "enumerate" and over.args:
             over = over.args[0]
         if not isinstance(over, ast.Name | ast.Attribute):
             continue
         name = ast.unparse(over)
-        for node in ast.walk(loop):
+        for node in walk(loop):
             call = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in CHANGES
             taken = call and ast.unparse(node.func.value) == name  # type: ignore[attr-defined]
             if isinstance(node, ast.Delete):
@@ -85,7 +83,7 @@ def changed_while_read(tree: ast.AST) -> Iterator[Place]:
 def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
     """Return whether a loop is left for certain after a node in one of its blocks."""
     for number, statement in enumerate(block):
-        if any(each is node for each in ast.walk(statement)):
+        if any(each is node for each in walk(statement)):
             later = block[number:]
             inner = (getattr(statement, part, []) for part in ("body", "orelse", "finalbody"))
             return any(isinstance(each, ast.Break | ast.Return) for each in later) or any(
@@ -96,7 +94,7 @@ def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
 
 def compared_with_nan(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons that are always the same: with nan by value, with a float by identity."""
-    for node in (node for node in ast.walk(tree) if isinstance(node, ast.Compare)):
+    for node in (node for node in walk(tree) if isinstance(node, ast.Compare)):
         for left, operator, right in zip([node.left, *node.comparators], node.ops, node.comparators, strict=False):
             kinds = {_constant(side) for side in (left, right)}
             if isinstance(operator, ast.Eq | ast.NotEq) and "nan" in kinds:
@@ -121,10 +119,10 @@ def log_arguments(tree: ast.AST) -> Iterator[Place]:
     """Find a line of the node's logger with several arguments, as print() and Python's logging take them."""
     loggers = {
         ast.unparse(node.targets[0])
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and ast.unparse(node.value).endswith("get_logger()")
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute) or node.func.attr not in LEVELS:
             continue
         owner = ast.unparse(node.func.value)
@@ -147,12 +145,12 @@ def silent_log(content: bytes) -> Places:
 def _silent(tree: ast.Module) -> Iterator[Place]:
     calls = [
         node
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in LEVELS
     ]
-    names = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    names = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
     imported = any(
-        isinstance(node, ast.Import) and any(each.name == "logging" for each in node.names) for node in ast.walk(tree)
+        isinstance(node, ast.Import) and any(each.name == "logging" for each in node.names) for node in walk(tree)
     )
     for call in sorted(calls, key=lambda each: each.lineno):
         if imported and "get_logger" not in names:

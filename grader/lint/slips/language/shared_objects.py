@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls
+from gz_course.grader.lint.syntax import Place, assigned, calls, walk
 
 
 def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
@@ -28,7 +28,7 @@ def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
                 f"{name} is {other} here, one object with two names, so both subscriptions store into it: make one "
                 "for each",
             )
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and len(node.targets) > 1 and isinstance(node.value, ast.Call):
             names = [ast.unparse(each) for each in node.targets if ast.unparse(each) in listening]
             if len(names) > 1 and all(len(values[each]) == 1 for each in names):
@@ -42,14 +42,14 @@ def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
 def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
     """Find `Robot.pose = ...` in a method of Robot that gets a message, where the file makes two objects of it."""
     made = [name for _, name in calls(tree)]
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         if made.count(owner.name) < 2:
             continue
         for method in (node for node in owner.body if isinstance(node, ast.FunctionDef)):
             given = {each.arg for each in method.args.args[1:]}
             for target, value in assigned(method):
                 whole = isinstance(target, ast.Attribute) and ast.unparse(target.value)
-                if whole != owner.name or not given & {ast.unparse(each) for each in ast.walk(value)}:
+                if whole != owner.name or not given & {ast.unparse(each) for each in walk(value)}:
                     continue
                 attribute = ast.unparse(target).rpartition(".")[2]
                 yield (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned
+from gz_course.grader.lint.syntax import Place, assigned, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 NEAR = 0.75  # how alike two names of one state are
@@ -25,7 +25,7 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
     elsewhere = {name.rpartition(".")[2] for name in given.keys() | unknown if not name.startswith("self.")}
     asked: dict[str, dict[str, int]] = {}
     equal: set[tuple[str, str]] = set()
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[ast.Constant(value=str(text))]):
                 asked.setdefault(ast.unparse(left), {}).setdefault(text, node.lineno)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, called, calls, functions
+from gz_course.grader.lint.syntax import Place, called, calls, functions, walk
 
 LONGEST_WAIT = 8.0  # [s] of counted ticks; a later message was hardly meant
 ENDS = ("shutdown", "destroy_node")  # what belongs behind spin()
@@ -16,7 +16,7 @@ HARMLESS = frozenset({
 
 
 def blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         for name in ("body", "orelse", "finalbody"):
             block = getattr(node, name, None)
             if isinstance(block, list) and block and isinstance(block[0], ast.stmt):
@@ -89,10 +89,10 @@ def other_name_than_main(tree: ast.Module) -> Iterator[Place]:
 
 def cancelled_at_once(tree: ast.AST) -> Iterator[Place]:
     """Find a timer that `__init__` makes and cancels, and that nothing resets."""
-    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "__init__"):
+    for function in (node for node in walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "__init__"):
         made = {
             ast.unparse(node.targets[0])
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.Assign) and "create_timer" in called(node.value)
         }
         for statement in function.body:
@@ -106,16 +106,16 @@ def never_true(tree: ast.AST) -> Iterator[Place]:
 
     `if not self.x: return` keeps the lines behind it back in the same way.
     """
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         begins = _first_values(owner)
         for node, behind in ((each, block[i + 1 :]) for block in blocks(owner) for i, each in enumerate(block)):
             if not isinstance(node, ast.If):
                 continue
             name, kept, where = _kept_back(node, behind)
-            inside = {id(each) for statement in kept for each in ast.walk(statement)}
-            changed = [each for each in ast.walk(owner) if _changes(each, name)]
+            inside = {id(each) for statement in kept for each in walk(statement)}
+            changed = [each for each in walk(owner) if _changes(each, name)]
             others = [each for each in changed if id(each) not in inside]
-            outside = [each for each in ast.walk(tree) if _changes(each, name.removeprefix("self"))]
+            outside = [each for each in walk(tree) if _changes(each, name.removeprefix("self"))]
             if name not in begins or begins[name] or len(others) != 1 or not len(others) < len(changed) == len(outside):
                 continue
             yield (
@@ -128,7 +128,7 @@ def _kept_back(node: ast.If, behind: list[ast.stmt]) -> tuple[str, list[ast.stmt
     """Return what a condition asks for, the statements that need it, and where they stand."""
     test, leaves = node.test, isinstance(node.body[-1], ast.Return | ast.Continue)
     if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not) and leaves and not node.orelse:
-        inner = [each for statement in node.body for each in ast.walk(statement)]
+        inner = [each for statement in node.body for each in walk(statement)]
         name = ast.unparse(test.operand)
         if not any(_changes(each, name) for each in inner):
             return name, behind, f"after  if {ast.unparse(test)}: {ast.unparse(node.body[-1])}"
@@ -141,7 +141,7 @@ def _first_values(owner: ast.ClassDef) -> dict[str, object]:
     init = next((node for node in owner.body if isinstance(node, ast.FunctionDef) and node.name == "__init__"), None)
     return {
         ast.unparse(node.targets[0]): node.value.value
-        for node in (ast.walk(init) if init is not None else ())
+        for node in (walk(init) if init is not None else ())
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
     }
 
@@ -158,7 +158,7 @@ def one_callback_of_two(tree: ast.AST) -> Iterator[Place]:
     for block in blocks(tree):
         seen: dict[str, int] = {}
         for statement in block:
-            for call in [node for node in ast.walk(statement) if isinstance(node, ast.Call) and len(node.args) == 2]:
+            for call in [node for node in walk(statement) if isinstance(node, ast.Call) and len(node.args) == 2]:
                 if not ast.unparse(call.func).endswith("create_timer") or isinstance(statement, ast.FunctionDef):
                     continue
                 callback = ast.unparse(call.args[1])
@@ -180,18 +180,18 @@ def ended_before(tree: ast.AST) -> Iterator[Place]:
 
 def counts_too_far(tree: ast.AST) -> Iterator[Place]:
     """Find a callback of a timer that does something at one count of its ticks, long after the start."""
-    functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
-    for call in (node for node in ast.walk(tree) if isinstance(node, ast.Call) and len(node.args) >= 2):
+    functions = {node.name: node for node in walk(tree) if isinstance(node, ast.FunctionDef)}
+    for call in (node for node in walk(tree) if isinstance(node, ast.Call) and len(node.args) >= 2):
         period, name = call.args[0], ast.unparse(call.args[1]).rpartition(".")[2]
         if not ast.unparse(call.func).endswith("create_timer") or not isinstance(period, ast.Constant):
             continue
-        for node in ast.walk(functions[name]) if name in functions else ():
+        for node in walk(functions[name]) if name in functions else ():
             if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
                 continue
             counter, limit = node.test.left, node.test.comparators[0]
             steps = any(
                 isinstance(each, ast.AugAssign) and ast.unparse(each.target) == ast.unparse(counter)
-                for each in ast.walk(functions[name])
+                for each in walk(functions[name])
             )
             number = limit.value if isinstance(limit, ast.Constant) else None
             if not steps or not isinstance(node.test.ops[0], ast.Eq) or not isinstance(number, int | float):

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, called, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, called, functions, last_name, walk
 
 # Position of each callback among the arguments; -1 for those that are given by name only.
 PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
@@ -22,8 +22,8 @@ ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 
 def _callbacks(tree: ast.AST) -> Iterator[tuple[str, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda]]:
     """Yield the role and the function of each callback that is passed to an ActionServer."""
-    functions = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)}
-    for node in ast.walk(tree):
+    functions = {n.name: n for n in walk(tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)}
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] != "ActionServer":
             continue
         given = {each.arg: each.value for each in node.keywords if each.arg in PLACES}
@@ -41,11 +41,11 @@ def _returned(function: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> 
         return [function.body]
     inner = {
         id(each)
-        for node in ast.walk(function)
+        for node in walk(function)
         if isinstance(node, ast.FunctionDef | ast.Lambda) and node is not function
-        for each in ast.walk(node)
+        for each in walk(node)
     }
-    return [each.value for each in ast.walk(function) if isinstance(each, ast.Return) and id(each) not in inner]
+    return [each.value for each in walk(function) if isinstance(each, ast.Return) and id(each) not in inner]
 
 
 def answers(tree: ast.AST) -> Iterator[Place]:
@@ -80,8 +80,8 @@ def no_result(tree: ast.AST) -> Iterator[Place]:
                 "the action after goal_handle.succeed()",
             )
         elif role == "execute_callback" and isinstance(function, ast.FunctionDef):
-            inside = {id(n) for f in functions(function) if f is not function for n in ast.walk(f)}
-            for node in (each for each in ast.walk(function) if isinstance(each, ast.Return)):
+            inside = {id(n) for f in functions(function) if f is not function for n in walk(f)}
+            for node in (each for each in walk(function) if isinstance(each, ast.Return)):
                 if node.value is None and id(node) not in inside:
                     yield (
                         node.lineno,
@@ -94,7 +94,7 @@ def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that waits in execute, in a node with one thread; a coroutine without await is no other."""
     names = {
         ast.unparse(node.func).rpartition(".")[2]
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Call) and not _one_thread(node)
     }
     if names & {"MultiThreadedExecutor", "Thread", "spin_once", "spin_some", "start_new_thread"} or "spin" not in names:
@@ -102,9 +102,9 @@ def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
     for role, function in _callbacks(tree):
         if role != "execute_callback" or isinstance(function, ast.Lambda):
             continue
-        if any(isinstance(each, ast.Await | ast.AsyncFor | ast.AsyncWith) for each in ast.walk(function)):
+        if any(isinstance(each, ast.Await | ast.AsyncFor | ast.AsyncWith) for each in walk(function)):
             continue
-        loop = next((each for each in ast.walk(function) if isinstance(each, ast.While)), None)
+        loop = next((each for each in walk(function) if isinstance(each, ast.While)), None)
         if loop is not None and isinstance(function, ast.AsyncFunctionDef) and not called(loop) >= DRIVES:
             continue
         if loop is not None:
@@ -125,7 +125,7 @@ def _one_thread(call: ast.Call) -> bool:
 def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
     """Find a goal that is ended in the callback that only answers whether it may be cancelled."""
     for role, function in _callbacks(tree):
-        for call in (each for each in ast.walk(function) if isinstance(each, ast.Call)):
+        for call in (each for each in walk(function) if isinstance(each, ast.Call)):
             name = ast.unparse(call.func)
             if role == "cancel_callback" and name.rpartition(".")[2] == "canceled":
                 yield (
@@ -138,7 +138,7 @@ def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
 def spins_itself(tree: ast.AST) -> Iterator[Place]:
     """Find an execute callback that spins the node it belongs to."""
     for role, function in _callbacks(tree):
-        for call in (each for each in ast.walk(function) if isinstance(each, ast.Call)):
+        for call in (each for each in walk(function) if isinstance(each, ast.Call)):
             name = ast.unparse(call.func)
             if role == "execute_callback" and name in SPINS and call.args and ast.unparse(call.args[0]) == "self":
                 yield (
@@ -180,12 +180,12 @@ def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
 
 def without_a_pause(tree: ast.AST) -> Iterator[Place]:
     """Find a loop in execute that publishes as fast as the computer can."""
-    sleeping = {each.name for each in ast.walk(tree) if isinstance(each, FUNCTIONS) and _pauses(each)}
-    speaking = {each.name for each in ast.walk(tree) if isinstance(each, FUNCTIONS) and called(each) & SPEAKS}
+    sleeping = {each.name for each in walk(tree) if isinstance(each, FUNCTIONS) and _pauses(each)}
+    speaking = {each.name for each in walk(tree) if isinstance(each, FUNCTIONS) and called(each) & SPEAKS}
     for role, function in _callbacks(tree):
         if role != "execute_callback" or isinstance(function, ast.Lambda):
             continue
-        inner = (each for each in ast.walk(function) if isinstance(each, ast.While))
+        inner = (each for each in walk(function) if isinstance(each, ast.While))
         for loop in inner:
             if called(loop) & (SPEAKS | speaking) and not _pauses(loop) and not called(loop) & sleeping:
                 yield (
@@ -197,16 +197,16 @@ def without_a_pause(tree: ast.AST) -> Iterator[Place]:
 
 
 def _pauses(node: ast.AST) -> bool:
-    awaits = any(isinstance(each, ast.Await) for each in ast.walk(node))
+    awaits = any(isinstance(each, ast.Await) for each in walk(node))
     return awaits or bool(called(node) & PAUSES)
 
 
 def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
     """Find a lock that is held while a loop sleeps, in a file where a callback waits for the same lock."""
     made = {ast.unparse(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in LOCKS}
-    for function in (each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)):
+    for function in (each for each in walk(tree) if isinstance(each, ast.FunctionDef)):
         for lock, line, held in _held(function):
-            loops = (n for part in held for n in ast.walk(part) if isinstance(n, ast.While | ast.For))
+            loops = (n for part in held for n in walk(part) if isinstance(n, ast.While | ast.For))
             sleeps = any("sleep" in called(loop) for loop in loops)
             others = (each for each in functions(tree) if each is not function)
             waits = next((each for each in others if any(name == lock for name, _, _ in _held(each))), None)
@@ -220,7 +220,7 @@ def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
 
 def _held(function: ast.FunctionDef) -> Iterator[tuple[str, int, list[ast.stmt]]]:
     """Yield each lock that a function takes, the line, and the statements that run while it holds the lock."""
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.With):
             for item in node.items:
                 yield ast.unparse(item.context_expr), node.lineno, node.body

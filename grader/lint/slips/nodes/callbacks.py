@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 
 # Method -> position of its callback.
 CREATE = {
@@ -16,7 +16,7 @@ CREATE = {
 
 def handed_over(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
     """Yield each call that takes a callback, with the callback."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call):
             continue
         place = CREATE.get(ast.unparse(node.func).rpartition(".")[2])
@@ -29,7 +29,7 @@ def handed_over(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 def called_at_once(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that is called where it should be passed."""
-    functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)}
+    functions = {node.name: node for node in walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)}
     for call, given in handed_over(tree):
         if not isinstance(given, ast.Call):
             continue
@@ -52,7 +52,7 @@ def called_at_once(tree: ast.AST) -> Iterator[Place]:
 
 
 def _returns_something(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
-    returned = [node for node in ast.walk(function) if isinstance(node, ast.Return)]
+    returned = [node for node in walk(function) if isinstance(node, ast.Return)]
     return any(node.value is not None and ast.unparse(node.value) != "None" for node in returned)
 
 
@@ -78,8 +78,8 @@ def texts_for_callbacks(tree: ast.AST) -> Iterator[Place]:
 
 def async_publish(tree: ast.AST) -> Iterator[Place]:
     """Find a call of the file's own `async def` that nobody awaits: it does not run."""
-    own = {node.name for node in ast.walk(tree) if isinstance(node, ast.AsyncFunctionDef)}
-    for node in ast.walk(tree):
+    own = {node.name for node in walk(tree) if isinstance(node, ast.AsyncFunctionDef)}
+    for node in walk(tree):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
             name = ast.unparse(node.value.func)
             if name.removeprefix("self.") in own:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, called
+from gz_course.grader.lint.syntax import Place, assigned, called, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 def once_before_any_message(tree: ast.AST) -> Iterator[Place]:
     """Find `self.control()` in `__init__`, the only call of a method that returns while an attribute is None."""
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         methods = {node.name: node for node in owner.body if isinstance(node, Function)}
         start = methods.get("__init__")
         if start is None or "create_subscription" not in called(owner):
@@ -27,7 +27,7 @@ def once_before_any_message(tree: ast.AST) -> Iterator[Place]:
             if method is None or ast.unparse(call.func.value) != "self" or "publish" not in called(method):
                 continue
             missing = _awaited(method, none)
-            used = [n for n in ast.walk(tree) if isinstance(n, ast.Attribute) and n.attr == name]
+            used = [n for n in walk(tree) if isinstance(n, ast.Attribute) and n.attr == name]
             if missing and len(used) == 1 and "spin_once" not in called(start):
                 yield (
                     call.lineno,
@@ -40,7 +40,7 @@ def _awaited(method: Function, none: set[str]) -> str:
     """Return the attribute without which a method returns at its beginning; empty if there is none."""
     for statement in method.body[:3]:
         if isinstance(statement, ast.If) and any(isinstance(each, ast.Return) for each in statement.body):
-            asked = {ast.unparse(each) for each in ast.walk(statement.test) if isinstance(each, ast.Attribute)}
+            asked = {ast.unparse(each) for each in walk(statement.test) if isinstance(each, ast.Attribute)}
             test = ast.unparse(statement.test)
             names = [each for each in sorted(asked & none) if f"{each} is None" in test or f"not {each}" in test]
             if names:

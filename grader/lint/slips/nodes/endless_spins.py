@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, called, calls
+from gz_course.grader.lint.syntax import Place, called, calls, walk
 
 ENDS = frozenset({"BaseException", "KeyboardInterrupt"})
 LEAVES = ast.Break | ast.Return | ast.Raise
@@ -14,15 +14,15 @@ EXITS = frozenset({"exit", "_exit", "quit", "abort"})
 
 def never_ends(tree: ast.AST) -> Iterator[Place]:
     """Find `while True` with a `try` inside that spins, catches KeyboardInterrupt and goes on."""
-    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.While)):
+    for loop in (node for node in walk(tree) if isinstance(node, ast.While)):
         if not isinstance(loop.test, ast.Constant) or not loop.test.value:
             continue
-        for node in (each for each in ast.walk(loop) if isinstance(each, ast.Try)):
+        for node in (each for each in walk(loop) if isinstance(each, ast.Try)):
             spins = any(name.startswith("spin") for part in node.body for name in called(part))
             for handler in node.handlers if spins else ():
                 if not _catches(handler):
                     continue
-                leaves = any(isinstance(each, LEAVES) for each in ast.walk(handler)) or called(handler) & EXITS
+                leaves = any(isinstance(each, LEAVES) for each in walk(handler)) or called(handler) & EXITS
                 if not leaves and not _asks_whether_ok(loop):
                     caught = ast.unparse(handler.type) if handler.type else "without a name"
                     yield (
@@ -37,11 +37,11 @@ def _catches(handler: ast.ExceptHandler) -> bool:
     """Return whether a handler is the one that gets a KeyboardInterrupt."""
     if handler.type is None:
         return True
-    return any(isinstance(each, ast.Name) and each.id in ENDS for each in ast.walk(handler.type))
+    return any(isinstance(each, ast.Name) and each.id in ENDS for each in walk(handler.type))
 
 
 def _asks_whether_ok(loop: ast.While) -> bool:
-    tests = [node.test for node in ast.walk(loop) if isinstance(node, ast.If)]
+    tests = [node.test for node in walk(loop) if isinstance(node, ast.If)]
     return any("ok" in called(test) for test in tests)
 
 
@@ -60,11 +60,9 @@ def spins_too_little(tree: ast.AST) -> Iterator[Place]:
                 "node is made",
             )
         return
-    loops = [node for node in ast.walk(tree) if isinstance(node, ast.While | ast.For)]
+    loops = [node for node in walk(tree) if isinstance(node, ast.While | ast.For)]
     looped = {name for loop in loops for name in called(loop)}
-    spinning = {
-        node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and "spin_once" in called(node)
-    }
+    spinning = {node.name for node in walk(tree) if isinstance(node, ast.FunctionDef) and "spin_once" in called(node)}
     if not looped & (spinning | {"spin_once"}):
         yield (
             next(call.lineno for call, name in calls(tree) if name == "spin_once"),

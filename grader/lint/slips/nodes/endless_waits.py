@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.nodes.scan_callbacks import callbacks
-from gz_course.grader.lint.syntax import Place, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, called, calls, functions, last_name, walk
 
 THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "ThreadPoolExecutor", "Process"})
 PROGRESS = frozenset({
@@ -33,14 +33,14 @@ def waits_for_another_callback(tree: ast.AST) -> Iterator[Place]:
             if isinstance(target, ast.Attribute)
         }
         setting = {name for name, each in own.items() if any(isinstance(t, ast.Attribute) for t, _ in assigned(each))}
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.While)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
             if called(loop) & (PROGRESS | setting) or _leaves(loop):
                 continue
             changed: dict[str, set[str]] = {}
             for target, value in assigned(loop):
-                for each in (node for node in ast.walk(target) if isinstance(node, ast.Name | ast.Attribute)):
+                for each in (node for node in walk(target) if isinstance(node, ast.Name | ast.Attribute)):
                     changed.setdefault(ast.unparse(each), set()).update(_read(value))
-            stepping = {ast.unparse(node.target) for node in ast.walk(loop) if isinstance(node, ast.AugAssign)}
+            stepping = {ast.unparse(node.target) for node in walk(loop) if isinstance(node, ast.AugAssign)}
             tested = _read(loop.test)
             for name in tested & changed.keys():
                 tested |= changed[name]
@@ -56,11 +56,11 @@ def waits_for_another_callback(tree: ast.AST) -> Iterator[Place]:
 
 
 def _leaves(loop: ast.While) -> bool:
-    return any(isinstance(node, ast.Break | ast.Return | ast.Raise) for node in ast.walk(loop))
+    return any(isinstance(node, ast.Break | ast.Return | ast.Raise) for node in walk(loop))
 
 
 def _read(node: ast.AST) -> set[str]:
-    return {ast.unparse(each) for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)} - {"self"}
+    return {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)} - {"self"}
 
 
 def _circular(changed: dict[str, set[str]], tested: set[str]) -> bool:

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 
 from gz_course.grader.errors import ManifestError
-from gz_course.grader.lint.syntax import Place
+from gz_course.grader.lint.syntax import Place, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 
@@ -36,7 +36,7 @@ def message_fields(ros_types: Iterable[str]) -> dict[str, list[str]]:
 
 def unknown_fields(tree: ast.AST, fields: Mapping[str, list[str]]) -> Iterator[Place]:
     others, modules = _other_owners(tree), _modules(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call):
             continue
         owner, _, kind = ast.unparse(node.func).rpartition(".")
@@ -57,7 +57,7 @@ def unknown_fields(tree: ast.AST, fields: Mapping[str, list[str]]) -> Iterator[P
 def _other_owners(tree: ast.AST) -> set[str]:
     """Return the names that stand for something else than a message: rclpy's Time, pathlib's Path, an own Point."""
     found: set[str] = set()
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.ImportFrom) and not (node.module or "").endswith((".msg", "_msgs", "_interfaces")):
             found |= {each.asname or each.name for each in node.names}
         elif isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
@@ -72,7 +72,7 @@ def _other_owners(tree: ast.AST) -> set[str]:
 def _modules(tree: ast.AST) -> set[str]:
     """Return the names under which a file knows whole modules of messages."""
     found = {"msg"}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom):
             found |= {each.asname for each in node.names if each.asname and each.name.rpartition(".")[2] == "msg"}
     return found

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from gz_course.grader.lint.ros_parameters import ASKS, declared, listeners, members, objects, owners, reads
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 RESULT = "SetParametersResult"
@@ -19,14 +19,14 @@ CASES = frozenset({"lower", "upper", "capitalize", "title", "casefold"})
 
 def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for changes of parameters that returns nothing, or a truth value."""
-    functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
-    for node in ast.walk(tree):
+    functions = {node.name: node for node in walk(tree) if isinstance(node, ast.FunctionDef)}
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or not ast.unparse(node.func).endswith("add_on_set_parameters_callback"):
             continue
         name = ast.unparse(node.args[0]).rpartition(".")[2] if node.args else ""
         if name not in functions:
             continue
-        returned = [each.value for each in ast.walk(functions[name]) if isinstance(each, ast.Return)]
+        returned = [each.value for each in walk(functions[name]) if isinstance(each, ast.Return)]
         if all(value is None or isinstance(value, ast.Constant) for value in returned):
             yield (
                 functions[name].lineno,
@@ -64,7 +64,7 @@ def callbacks_that_nobody_calls(tree: ast.AST) -> Iterator[Place]:
 def objects_for_values(tree: ast.AST) -> Iterator[Place]:
     """Find `get_parameter('side') == 'left'`, which compares an object with a text and never holds."""
     held = objects(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Eq | ast.NotEq | ast.In | ast.NotIn):
             pair = (node.left, node.comparators[0])
             for one, other in (pair, pair[::-1]):
@@ -114,7 +114,7 @@ def objects_for_names(tree: ast.AST) -> Iterator[Place]:
     for function in listeners(tree):
         single = members(function)
         whole = {each.arg for each in function.args.args} - {"self"}
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Compare)):
+        for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
             left, right = ast.unparse(node.left), node.comparators[0]
             if left in single and isinstance(node.ops[0], ast.Eq | ast.In) and _plain(right):
                 yield (
@@ -134,7 +134,7 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
     """Find `.integer_value` of a parameter that is a double: only the field of its own type is set."""
     known = declared(tree) or {}
     asked = {id(call): name for call, name in reads(tree)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.Attribute(
                 value=ast.Call(func=ast.Attribute(value=ast.Call() as read, attr="get_parameter_value")), attr=field
@@ -168,7 +168,7 @@ def whole_numbers_of_doubles(tree: ast.AST) -> Iterator[Place]:
 def texts_for_truth(tree: ast.AST) -> Iterator[Place]:
     """Find `1 if side else -1` where side is a text, which counts as true whatever it says."""
     values = _values(tree, str)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If | ast.IfExp | ast.While):
             continue
         test = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
@@ -189,7 +189,7 @@ def _values(tree: ast.AST, kind: type) -> dict[str, object]:
         for name, (_, default) in (declared(tree) or {}).items()
         if isinstance(default, ast.Constant) and type(default.value) is kind
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Attribute) and node.attr == "value" and asked.get(id(node.value), "") in defaults:
             found[ast.unparse(node)] = defaults[asked[id(node.value)]]
     held: dict[str, list[object]] = {}
@@ -210,7 +210,7 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
         return
     texts = [
         (node, other.value)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Compare)
         for other in (node.left, *node.comparators)
         if isinstance(other, ast.Constant) and isinstance(other.value, str)
@@ -233,7 +233,7 @@ def read_as_it_was(tree: ast.Module) -> Iterator[Place]:
         if any(last_name(call.args[0]) == function.name for call, name in calls(tree) if name == POST and call.args):
             continue
         names = {function.name} | {name for _, name in calls(function)}
-        for node in ast.walk(tree):
+        for node in walk(tree):
             if not isinstance(node, ast.Assign) or inside[id(node)] not in names - {"__init__"}:
                 continue
             kept = ast.unparse(node.targets[0])
@@ -257,7 +257,7 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
         single, whole = members(function), {each.arg for each in function.args.args} - {"self"}
         takes = [
             node
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("self.")
             and re.fullmatch(r"(\w+)(\[0\])?\.value", ast.unparse(node.value))
             and re.match(r"\w+", ast.unparse(node.value))[0] in single | whole  # type: ignore[index]
@@ -274,13 +274,11 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
         if takes and len(known) > 1 and ".name" not in code and "continue" not in code:
             yield takes[0].lineno, _any(ast.unparse(takes[0]), sorted(known))
             continue
-        for test in (each for each in ast.walk(function) if isinstance(each, ast.If)):
+        for test in (each for each in walk(function) if isinstance(each, ast.If)):
             excluded, last = _chain(test)
             left = sorted(known - excluded)
             other = next((each for each in takes if any(each is node for node in last)), None)
-            above = any(
-                each is not test and test in each.orelse for each in ast.walk(function) if isinstance(each, ast.If)
-            )
+            above = any(each is not test and test in each.orelse for each in walk(function) if isinstance(each, ast.If))
             if (
                 other is not None
                 and excluded
@@ -304,7 +302,7 @@ def _chain(test: ast.If) -> tuple[set[str], list[ast.stmt]]:
     names: set[str] = set()
     while True:
         if isinstance(test.test, ast.Compare) and last_name(test.test.left) == "name":
-            names |= {str(each.value) for each in ast.walk(test.test.comparators[0]) if isinstance(each, ast.Constant)}
+            names |= {str(each.value) for each in walk(test.test.comparators[0]) if isinstance(each, ast.Constant)}
         if len(test.orelse) != 1 or not isinstance(test.orelse[0], ast.If):
             return names, test.orelse
         test = test.orelse[0]
@@ -312,7 +310,7 @@ def _chain(test: ast.If) -> tuple[set[str], list[ast.stmt]]:
 
 def _keeping(tree: ast.AST, name: str) -> Iterator[ast.Assign]:
     """Yield each assignment to a name."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and name in [ast.unparse(each) for each in node.targets]:
             yield node
 

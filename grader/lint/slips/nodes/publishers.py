@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, called, calls, functions
+from gz_course.grader.lint.syntax import Place, called, calls, functions, walk
 
 BEGINNINGS = frozenset({"__init__", "main"})
 WAITS = frozenset({"spin", "spin_once", "sleep", "wait", "get_subscription_count"})
@@ -13,7 +13,7 @@ WAITS = frozenset({"spin", "spin_once", "sleep", "wait", "get_subscription_count
 
 def never_published(tree: ast.AST) -> Iterator[Place]:
     """Find a publisher in a file in which nothing is ever published."""
-    if any(getattr(node, "attr", getattr(node, "id", "")) == "publish" for node in ast.walk(tree)):
+    if any(getattr(node, "attr", getattr(node, "id", "")) == "publish" for node in walk(tree)):
         return
     for call, name in calls(tree):
         if name == "create_publisher":
@@ -27,7 +27,7 @@ def never_published(tree: ast.AST) -> Iterator[Place]:
 def made_for_one_message(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that makes a publisher and publishes at once."""
     for function in functions(tree):
-        nested = sum(isinstance(each, ast.FunctionDef | ast.Lambda) for each in ast.walk(function)) > 1
+        nested = sum(isinstance(each, ast.FunctionDef | ast.Lambda) for each in walk(function)) > 1
         if function.name in BEGINNINGS or nested or WAITS & called(function):
             continue
         made = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, calls, functions
+from gz_course.grader.lint.syntax import Place, calls, functions, walk
 
 LONG = 0.05  # [s] of sleep; data come 10 times a second and faster
 ASKS_FOR_INVALID = ("isinf", "isnan", "isfinite", "range_max", "range_min", "inf", "nan")
@@ -43,13 +43,13 @@ def kept_defaults(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         arguments, defaults = function.args.args, function.args.defaults
         for argument, default in zip(arguments[len(arguments) - len(defaults) :], defaults, strict=True):
-            names = [node for node in ast.walk(function) if isinstance(node, ast.AugAssign | ast.Assign)]
+            names = [node for node in walk(function) if isinstance(node, ast.AugAssign | ast.Assign)]
             anew = any(argument.arg in map(ast.unparse, node.targets) for node in names if isinstance(node, ast.Assign))
             if not isinstance(default, ast.List | ast.Dict) or anew:
                 continue
             grows = any(ast.unparse(node.target) == argument.arg for node in names if isinstance(node, ast.AugAssign))
             added = {f"{argument.arg}.append", f"{argument.arg}.extend", f"{argument.arg}.update"}
-            calls = {ast.unparse(node.func) for node in ast.walk(function) if isinstance(node, ast.Call)}
+            calls = {ast.unparse(node.func) for node in walk(function) if isinstance(node, ast.Call)}
             if calls & added or grows:
                 yield (
                     function.lineno,
@@ -61,7 +61,7 @@ def kept_defaults(tree: ast.AST) -> Iterator[Place]:
 def one_ray_skips_the_scan(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that returns if any ray is not valid."""
     for function in functions(tree):
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.If)):
+        for node in (each for each in walk(function) if isinstance(each, ast.If)):
             if not isinstance(node.body[-1], ast.Return) or node.orelse:
                 continue
             text = ast.unparse(node.test)
@@ -79,16 +79,16 @@ def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         rays = {
             ast.unparse(node.targets[0])
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.Assign)
             and isinstance(node.value, ast.ListComp | ast.GeneratorExp)
             and ".ranges" in ast.unparse(node.value)
         }
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
             over = ast.unparse(loop.iter)
             if ".ranges" not in over and over not in rays:
                 continue
-            if any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop)):
+            if any(isinstance(node, ast.Break | ast.Return) for node in walk(loop)):
                 continue
             for call, _ in calls(loop):
                 if ast.unparse(call.func).endswith(".publish"):

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.slips.nodes.scan_callbacks import callbacks
-from gz_course.grader.lint.syntax import Place, Places, called, calls, functions, last_name, places_in
+from gz_course.grader.lint.syntax import Place, Places, called, calls, functions, last_name, places_in, walk
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
 SPINS = frozenset({"spin", "spin_once", "spin_until_future_complete"})
@@ -33,7 +33,7 @@ def new_buffers(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         if function.name not in handed:
             continue
-        guarded = {id(inner) for node in ast.walk(function) if isinstance(node, ast.If) for inner in ast.walk(node)}
+        guarded = {id(inner) for node in walk(function) if isinstance(node, ast.If) for inner in walk(node)}
         for call, name in calls(function):
             if name in ("Buffer", "TransformListener") and id(call) not in guarded:
                 yield (
@@ -46,8 +46,8 @@ def new_buffers(tree: ast.AST) -> Iterator[Place]:
 
 def no_listener(tree: ast.AST) -> Iterator[Place]:
     """Find a buffer that nothing fills."""
-    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    names |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    names = {node.id for node in walk(tree) if isinstance(node, ast.Name)}
+    names |= {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
     if "Buffer" not in names or not names & ASKED or names & {"TransformListener", "set_transform"}:
         return
     for call, name in calls(tree):
@@ -72,7 +72,7 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
                 f"{ast.unparse(call.func)}() in the callback {function.name}: a callback is called by spin(), and "
                 "inside of it the node cannot be spun again; return, and try again in the next call",
             )
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.While) or function.name in ("main", "__init__"):
                 continue
             asks = any(name in ASKED for call, name in calls(node))
@@ -87,7 +87,7 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
 def _endless(loop: ast.While) -> bool:
     """Return whether a loop goes on until it gets a transform."""
     return any(name in ASKED for call, name in calls(loop.test)) or (
-        isinstance(loop.test, ast.Constant) and any(isinstance(node, ast.Try) for node in ast.walk(loop))
+        isinstance(loop.test, ast.Constant) and any(isinstance(node, ast.Try) for node in walk(loop))
     )
 
 
@@ -98,7 +98,7 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
             continue  # a timer may be called when a transform has just come
         now = {
             ast.unparse(node.targets[0])
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.Assign) and _is_now(node.value)
         }
         for call, time in _lookups(function):
@@ -112,9 +112,7 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
 
 def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
     """Find can_transform() of the latest transform before a lookup, not in a try, at the time of a message."""
-    tried = {
-        id(n) for each in ast.walk(tree) if isinstance(each, ast.Try) for part in each.body for n in ast.walk(part)
-    }
+    tried = {id(n) for each in walk(tree) if isinstance(each, ast.Try) for part in each.body for n in walk(part)}
     asked: list[tuple[ast.Call, ast.expr | None]] = []
     looked: list[tuple[ast.Call, ast.expr | None]] = []
     for call, time in _lookups(tree):
@@ -174,7 +172,7 @@ def lookups(content: bytes) -> Places:
 def _asked_for(tree: ast.Module) -> Iterator[dict[str, Any]]:
     constants = {
         ast.unparse(node.targets[0]): node.value.value
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
     }
     gives_up = not _keeps_messages(tree) and not _threads(tree)
@@ -203,7 +201,7 @@ def _texts(nodes: list[ast.expr], constants: dict[str, Any]) -> list[str]:
 
 def _of_a_stamp(tree: ast.AST, time: ast.expr | None) -> bool:
     texts = [] if time is None else [ast.unparse(time)]
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if texts and isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == texts[0]:
             texts.append(ast.unparse(node.value))
     return any("header.stamp" in text for text in texts)
@@ -217,19 +215,19 @@ def _keeps_messages(tree: ast.AST) -> bool:
     timers = callbacks(tree, ("create_timer",))
     if any(each.name in timers and called(each) & (ASKED | {"transform"}) for each in functions(tree)):
         return True
-    if callbacks(tree) & KEEPS or any(isinstance(node, ast.Await) for node in ast.walk(tree)):
+    if callbacks(tree) & KEEPS or any(isinstance(node, ast.Await) for node in walk(tree)):
         return True
     for function in functions(tree):
         given = {each.arg for each in function.args.args} - {"self"}
-        for node in ast.walk(function):
+        for node in walk(function):
             if _asked_at_once(tree, function, node, given):
                 continue
             kept = isinstance(node, ast.Call) and last_name(node.func) in KEEPS and "." in ast.unparse(node.func)
             kept |= isinstance(node, ast.Assign) and any(
                 isinstance(each, ast.Attribute) and ast.unparse(each).startswith("self.")
-                for each in ast.walk(node.targets[0])
+                for each in walk(node.targets[0])
             )
-            if kept and given & {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}:
+            if kept and given & {each.id for each in walk(node) if isinstance(each, ast.Name)}:
                 return True
     return False
 
@@ -245,7 +243,7 @@ def _asked_at_once(tree: ast.AST, function: ast.FunctionDef, node: ast.AST, give
         return False
     before = any(
         isinstance(each, ast.Attribute) and ast.unparse(each) == kept and each.lineno < node.lineno
-        for each in ast.walk(function)
+        for each in walk(function)
     )
     asking = [each for each in functions(tree) if any(name in ASKED for _, name in calls(each))]
     later = {name for call, name in calls(function) if call.lineno > node.lineno}
@@ -259,7 +257,7 @@ def shared_headers(content: bytes) -> Places:
 
 def _shared(tree: ast.Module) -> Iterator[int]:
     for function in functions(tree):
-        assigned = [node for node in ast.walk(function) if isinstance(node, ast.Assign)]
+        assigned = [node for node in walk(function) if isinstance(node, ast.Assign)]
         same = {
             ast.unparse(node.targets[0])
             for node in assigned

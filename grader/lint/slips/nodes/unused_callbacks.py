@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.nodes.callbacks import handed_over
-from gz_course.grader.lint.syntax import Place, called
+from gz_course.grader.lint.syntax import Place, called, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -16,7 +16,7 @@ def never_called(tree: ast.AST) -> Iterator[Place]:
     used = _mentioned(tree)
     if not any(name.startswith("spin") for name in used):
         return  # others may use this file
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         if "create_subscription" not in called(owner):
             continue
         methods = [node for node in owner.body if isinstance(node, Function)]
@@ -35,9 +35,9 @@ def never_called(tree: ast.AST) -> Iterator[Place]:
 
 def _mentioned(tree: ast.AST) -> set[str]:
     """Return all names that are read in a file, and the texts in it, by which getattr() may find a method."""
-    found = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
-    found |= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    constants = [node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    found = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
+    found |= {node.id for node in walk(tree) if isinstance(node, ast.Name)}
+    constants = [node.value for node in walk(tree) if isinstance(node, ast.Constant)]
     return found | {value for value in constants if isinstance(value, str)}
 
 
@@ -47,7 +47,7 @@ def _set_here_alone(method: Function, methods: list[Function], tree: ast.AST) ->
     set_elsewhere = {name for each in others if each.name != "__init__" for name in _attributes(each, ast.Store)}
     outside = {
         node.attr
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and ast.unparse(node.value) != "self"
     }
     begun = {name for each in others if each.name == "__init__" for name in _attributes(each, ast.Store)}
@@ -59,7 +59,7 @@ def _set_here_alone(method: Function, methods: list[Function], tree: ast.AST) ->
 def _attributes(node: ast.AST, context: type[ast.expr_context]) -> list[str]:
     return [
         each.attr
-        for each in ast.walk(node)
+        for each in walk(node)
         if isinstance(each, ast.Attribute) and isinstance(each.ctx, context) and ast.unparse(each.value) == "self"
     ]
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.language.unreached import blocks
-from gz_course.grader.lint.syntax import Place, called, calls, functions
+from gz_course.grader.lint.syntax import Place, called, calls, functions, walk
 
 SPINS = frozenset(
     {"spin", "spin_once", "spin_some", "spin_until_future_complete", "wait_for_message", "wait_for_service"}
@@ -23,7 +23,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
         return
     spinning = {function.name for function in functions(tree) if SPINS & called(function)}
     for function in [each for each in functions(tree) if _runs_before_spin(each, tree)]:
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.While):
                 continue
             inside = called(node)
@@ -39,7 +39,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
                     "rclpy.spin(node)",
                 )
                 return
-            if (endless and not any(isinstance(each, ast.Break | ast.Return) for each in ast.walk(node))) or (
+            if (endless and not any(isinstance(each, ast.Break | ast.Return) for each in walk(node))) or (
                 inside & CLOCKS - {"sleep"}
             ):
                 where = "__init__" if function.name == "__init__" else f"{function.name}()"
@@ -58,11 +58,11 @@ def _runs_before_spin(function: ast.FunctionDef, tree: ast.AST) -> bool:
     text = f".{function.name}"
     handed = any(
         isinstance(node, ast.Attribute) and node.attr == function.name and isinstance(node.ctx, ast.Load)
-        for call in ast.walk(tree)
+        for call in walk(tree)
         if isinstance(call, ast.Call)
         for node in [*call.args, *(each.value for each in call.keywords)]
     )
-    mains = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "main"]
+    mains = [node for node in walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "main"]
     return not handed and any(function.name in called(main) or text in ast.unparse(main) for main in mains)
 
 
@@ -72,10 +72,10 @@ def rates(tree: ast.AST) -> Iterator[Place]:
         return
     rate = {
         ast.unparse(node.targets[0])
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and "create_rate" in called(node.value)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Call) and ast.unparse(node.func) in {f"{name}.sleep" for name in rate}:
             yield (
                 node.lineno,
@@ -87,14 +87,14 @@ def rates(tree: ast.AST) -> Iterator[Place]:
 
 def executors(tree: ast.AST) -> Iterator[Place]:
     """Find an executor that is spun and was given no node."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Call):
             continue
         name, kind = ast.unparse(node.targets[0]), ast.unparse(node.value.func).rpartition(".")[2]
         if kind not in ("SingleThreadedExecutor", "MultiThreadedExecutor"):
             continue
-        calls = [ast.unparse(each.func) for each in ast.walk(tree) if isinstance(each, ast.Call)]
-        handed = any(each.arg == "executor" for each in ast.walk(tree) if isinstance(each, ast.keyword))
+        calls = [ast.unparse(each.func) for each in walk(tree) if isinstance(each, ast.Call)]
+        handed = any(each.arg == "executor" for each in walk(tree) if isinstance(each, ast.keyword))
         if f"{name}.spin" in calls and f"{name}.add_node" not in calls and not handed:
             yield node.lineno, f"{name} is spun, but no node is in it: {name}.add_node(node) comes before {name}.spin()"
 
@@ -103,15 +103,15 @@ def other_node(tree: ast.AST) -> Iterator[Place]:
     """Find a spin() of a new plain node, or of a second object of the class, beside the node that does the work."""
     classes = {
         node.name
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.ClassDef) and any(ast.unparse(base).endswith("Node") for base in node.bases)
     }
     made = {
         ast.unparse(node.targets[0]): ast.unparse(node.value.func)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or ast.unparse(node.func) != "rclpy.spin" or not node.args:
             continue
         given = node.args[0]
@@ -141,7 +141,7 @@ def shut_down_first(tree: ast.AST) -> Iterator[Place]:
 
 def sleeps_between_spins(tree: ast.AST) -> Iterator[Place]:
     """Find time.sleep() in the loop that calls spin_once()."""
-    for loop in (node for node in ast.walk(tree) if isinstance(node, ast.While | ast.For)):
+    for loop in (node for node in walk(tree) if isinstance(node, ast.While | ast.For)):
         found = list(calls(loop))
         if not any(name == "spin_once" for _, name in found):
             continue
@@ -176,7 +176,7 @@ def another_executor_spins(tree: ast.AST) -> Iterator[Place]:
     """Find `rclpy.spin(node)` beside a MultiThreadedExecutor that got the node and is never spun itself."""
     made = {
         ast.unparse(node.targets[0])
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Assign) and "MultiThreadedExecutor(" in ast.unparse(node.value)
     }
     code = [(call, ast.unparse(call.func)) for call, _ in calls(tree)]

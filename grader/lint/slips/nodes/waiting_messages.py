@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.nodes.transforms import ASKED, KEEPS
-from gz_course.grader.lint.syntax import Place, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Place, assigned, called, calls, functions, last_name, walk
 
 TAKES = frozenset({"pop", "popleft", "get", "get_nowait"})
 REMOVES = TAKES | {"remove", "clear"}
@@ -21,7 +21,7 @@ def _asks(node: ast.AST, tree: ast.AST) -> bool:
 
 
 def _names(node: ast.AST) -> set[str]:
-    return {ast.unparse(each) for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute | ast.Subscript)}
+    return {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute | ast.Subscript)}
 
 
 def _while_any(loop: ast.AST) -> str:
@@ -57,7 +57,7 @@ def _over(loop: ast.For) -> str:
 def taken_too_early(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that takes each message out of its list, asks for its transform then, and never puts it back."""
     for function in functions(tree):
-        for loop in ast.walk(function):
+        for loop in walk(function):
             if not isinstance(loop, ast.While | ast.For) or not _asks(loop, tree):
                 continue
             kept, name, line = _while_any(loop), "", 0
@@ -104,9 +104,9 @@ def _looked_at_first(loop: ast.AST, kept: str, tree: ast.AST) -> bool:
 def emptied(tree: ast.AST) -> Iterator[Place]:
     """Find a list that is emptied behind the loop that asks for the transforms of its messages."""
     for function in functions(tree):
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For) and _asks(node, tree)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For) and _asks(node, tree)):
             kept = _over(loop)
-            later = [node for node in ast.walk(function) if getattr(node, "lineno", 0) > (loop.end_lineno or 0)]
+            later = [node for node in walk(function) if getattr(node, "lineno", 0) > (loop.end_lineno or 0)]
             filled = [
                 call for call, name in calls(function) if name in KEEPS and ast.unparse(call).startswith(f"{kept}.")
             ]
@@ -125,7 +125,7 @@ def emptied(tree: ast.AST) -> Iterator[Place]:
 
 
 def _in_finally(function: ast.FunctionDef, node: ast.AST) -> bool:
-    return any(node in each.finalbody for each in ast.walk(function) if isinstance(each, ast.Try))
+    return any(node in each.finalbody for each in walk(function) if isinstance(each, ast.Try))
 
 
 def kept_when_done(tree: ast.AST) -> Iterator[Place]:
@@ -136,9 +136,9 @@ def kept_when_done(tree: ast.AST) -> Iterator[Place]:
         if called(each) & ASKED
         and any(
             isinstance(handler, ast.ExceptHandler) and ast.unparse(handler.body[-1]) in ("return False", "return None")
-            for handler in ast.walk(each)
+            for handler in walk(each)
         )
-        and any(isinstance(node, ast.Return) and ast.unparse(node) == "return True" for node in ast.walk(each))
+        and any(isinstance(node, ast.Return) and ast.unparse(node) == "return True" for node in walk(each))
     }
     for target, value in assigned(tree):
         kept = value.value if isinstance(value, ast.Subscript) else value
@@ -160,7 +160,7 @@ def first_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find a list, or an attribute, whose first message is the only one that is asked for and leaves when answered."""
     for kept, line in _asked_alone(tree).items():
         outside = [each for each in functions(tree) if each.name != "__init__"]
-        removals = [node for each in outside for node in ast.walk(each) if _removes(node, kept)]
+        removals = [node for each in outside for node in walk(each) if _removes(node, kept)]
         text = ast.unparse(tree)
         if len(removals) != 1 or f"len({kept}) >" in text or f"len({kept}) =" in text or "maxlen" in text:
             continue
@@ -178,13 +178,13 @@ def _asked_alone(tree: ast.AST) -> dict[str, int]:
     found: dict[str, int] = {}
     guarded = {
         ast.unparse(target)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.If)
         for target, value in assigned(ast.Module(node.body, []))
         if isinstance(value, ast.Name) and ast.unparse(node.test) in _is_none(ast.unparse(target))
     }
     for function in functions(tree):
-        loops = [node for node in ast.walk(function) if isinstance(node, ast.For)]
+        loops = [node for node in walk(function) if isinstance(node, ast.For)]
         if any(_asks(loop, tree) for loop in loops):
             return {}
         values = {ast.unparse(target): value for target, value in assigned(function)}
@@ -223,12 +223,12 @@ def _removes(node: ast.AST, kept: str) -> bool:
 
 def _on_failure(tree: ast.AST, removal: ast.AST) -> bool:
     """Return whether a removal is reached, too, when there is no transform."""
-    for node in ast.walk(tree):
-        inside = any(each is removal for each in ast.walk(node))
+    for node in walk(tree):
+        inside = any(each is removal for each in walk(node))
         if isinstance(node, ast.ExceptHandler) and inside:
             return True
         if isinstance(node, ast.Try):
-            if any(each is removal for part in node.finalbody for each in ast.walk(part)):
+            if any(each is removal for part in node.finalbody for each in walk(part)):
                 return True
             goes_on = any(not _ends(handler.body) for handler in node.handlers)
             asks = any(called(part) & ASKED for part in node.body)
@@ -237,7 +237,7 @@ def _on_failure(tree: ast.AST, removal: ast.AST) -> bool:
         if isinstance(node, ast.If) and inside:
             test, behind = (
                 ast.unparse(node.test),
-                any(each is removal for part in node.orelse for each in ast.walk(part)),
+                any(each is removal for part in node.orelse for each in walk(part)),
             )
             if any(asked in test for asked in ASKED) and (test.startswith("not ") != behind):
                 return True
@@ -260,7 +260,7 @@ def time_of_another(tree: ast.AST) -> Iterator[Place]:
             and isinstance(call.func, ast.Attribute)
             and {ast.unparse(each) for each in call.args} & given
         }
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
             if _over(loop) not in lists:
                 continue
             each = ast.unparse(loop.target)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, functions, last_name, walk
 
 ASKS = "is_cancel_requested"
 
@@ -13,10 +13,10 @@ ASKS = "is_cancel_requested"
 def _answers(function: ast.FunctionDef) -> tuple[str, str] | None:
     """Return what a function returns where a goal is to be cancelled, and otherwise; None if that is the same."""
     asked = [
-        each for each in ast.walk(function) if isinstance(each, ast.If) and ASKS in ast.unparse(each.test)
+        each for each in walk(function) if isinstance(each, ast.If) and ASKS in ast.unparse(each.test)
     ]  # fmt: skip
     inside = [part for each in asked for part in each.body if isinstance(part, ast.Return)]
-    others = [each for each in ast.walk(function) if isinstance(each, ast.Return) and each not in inside]
+    others = [each for each in walk(function) if isinstance(each, ast.Return) and each not in inside]
     if not inside or inside[0].value is None:
         return None
     then = ast.unparse(inside[0].value)
@@ -31,7 +31,7 @@ def answers_thrown_away(tree: ast.AST) -> Iterator[Suspect]:
         answer = _answers(function)
         if answer is None:
             continue
-        for node in ast.walk(tree):
+        for node in walk(tree):
             call = node.value if isinstance(node, ast.Expr) else None
             if isinstance(call, ast.Call) and last_name(call.func) == function.name:
                 yield (

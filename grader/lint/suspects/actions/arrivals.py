@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, walk
 
 SIZES = frozenset({"abs", "fabs", "absolute"})
 COORDINATE = re.compile(r"(?:.*_)?(?:d|e|delta|diff|err|error|gap|off|rest)?_?([xy])(?:_.*)?")
@@ -19,7 +19,7 @@ DISTANCE = "what counts is the distance, math.hypot(dx, dy)"
 def _axis(node: ast.AST) -> str:
     """Return `x` or `y` if an expression is about this coordinate alone; else nothing."""
     found = set()
-    for each in ast.walk(node):
+    for each in walk(node):
         match each:
             case ast.Attribute(attr=name) | ast.Name(id=name):
                 if fits := COORDINATE.fullmatch(name.lower()):
@@ -68,8 +68,8 @@ def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that counts as reached, or a loop to it that ends, as soon as x or y alone is near."""
     for function in functions(tree):
         held = _conditions(function)
-        looped = {id(each) for one in ast.walk(function) if isinstance(one, MANY) for each in ast.walk(one)}
-        for node in ast.walk(function):
+        looped = {id(each) for one in walk(function) if isinstance(one, MANY) for each in walk(one)}
+        for node in walk(function):
             match node:
                 case _ if id(node) in looped:
                     continue  # it compares with many places
@@ -98,12 +98,12 @@ def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
     if not called(tree) & {"succeed"}:
         return  # it executes no goals
     for function in functions(tree):
-        for loop in (each for each in ast.walk(function) if isinstance(each, ast.While)):
+        for loop in (each for each in walk(function) if isinstance(each, ast.While)):
             if isinstance(loop.test, ast.BoolOp):
                 found = [each for each in loop.test.values if _compared(each)[0]]
             else:
                 found = [loop.test] if _compared(loop.test)[0] else []
-            left = any(isinstance(each, ast.Break) for part in loop.body for each in ast.walk(part))
+            left = any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
             if len(found) == 1 and _compared(found[0])[1] and not left:
                 other = "y" if _compared(found[0])[0] == "x" else "x"
                 yield (
@@ -118,7 +118,7 @@ def signs_are_kept(tree: ast.AST) -> Iterator[Suspect]:
     """Find differences of coordinates that are compared with their signs: each negative one is small enough."""
     if not called(tree) & {"succeed"}:
         return
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BoolOp):
             continue
         found = [pair for each in node.values if (pair := _compared(each, signed=True))[0]]
@@ -135,8 +135,8 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives as long as the robot is near: it is over before it begins."""
     if not called(tree) & {"succeed"}:
         return
-    for loop in (each for each in ast.walk(tree) if isinstance(each, ast.While)):
-        left = any(isinstance(each, ast.Break) for part in loop.body for each in ast.walk(part))
+    for loop in (each for each in walk(tree) if isinstance(each, ast.While)):
+        left = any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
         for node in loop.test.values if isinstance(loop.test, ast.BoolOp) else [loop.test]:
             match node:
                 case ast.Compare(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 ENDS = frozenset({"succeed", "canceled", "abort"})
 
@@ -22,12 +22,12 @@ def _constant(value: ast.expr) -> object:
 
 def _refusals(statements: list[ast.stmt]) -> list[int]:
     """Return the lines that return REJECT in statements and all that is in them."""
-    nodes = (node for each in statements for node in ast.walk(each))
+    nodes = (node for each in statements for node in walk(each))
     return [node.lineno for node in nodes if isinstance(node, ast.Return) and node.value and _rejects(node.value)]
 
 
 def _rejects(value: ast.expr) -> bool:
-    return any(isinstance(each, ast.Attribute) and each.attr == "REJECT" for each in ast.walk(value))
+    return any(isinstance(each, ast.Attribute) and each.attr == "REJECT" for each in walk(value))
 
 
 def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
@@ -42,9 +42,9 @@ def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
     for function in _judges(tree):
         tested = {
             _own(each): node.lineno
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.If) and _refusals(node.body)
-            for each in ast.walk(node.test)
+            for each in walk(node.test)
             if isinstance(each, ast.expr) and _own(each)
         }
         for number, statement in enumerate(function.body):
@@ -65,7 +65,7 @@ def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
         for number, statement in enumerate(function.body):
             taken = [
                 each.func.value
-                for each in (ast.walk(statement.test) if isinstance(statement, ast.If) else ())
+                for each in (walk(statement.test) if isinstance(statement, ast.If) else ())
                 if isinstance(each, ast.Call) and isinstance(each.func, ast.Attribute) and each.func.attr == "acquire"
             ]
             later = _refusals(function.body[number + 1 :])
@@ -88,7 +88,7 @@ def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
         for number, statement in enumerate(function.body):
             later = _refusals(function.body[number + 1 :])
             for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
-                of_goal = any(isinstance(each, ast.Name) and each.id == goal for each in ast.walk(value))
+                of_goal = any(isinstance(each, ast.Name) and each.id == goal for each in walk(value))
                 if later and of_goal and _own(target) in used:
                     yield (
                         statement.lineno,
@@ -99,7 +99,7 @@ def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _reads(tree: ast.AST) -> Iterator[ast.expr]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and _own(node):
             yield node
 
@@ -155,7 +155,7 @@ def events_never_cleared(tree: ast.AST) -> Iterator[Suspect]:
 
 def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that asks is_active, in a file that never asks whether a goal is to be cancelled."""
-    asked = [each for each in ast.walk(tree) if isinstance(each, ast.Attribute)]
+    asked = [each for each in walk(tree) if isinstance(each, ast.Attribute)]
     if any(each.attr == "is_cancel_requested" for each in asked):
         return
     for each in asked:
@@ -188,7 +188,7 @@ def aborts_at_the_end(tree: ast.AST) -> Iterator[Suspect]:
 def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
     """Find an action server in a file without publish_feedback()."""
     for call, name in calls(tree):
-        named = any(isinstance(each, ast.Attribute) and each.attr == "publish_feedback" for each in ast.walk(tree))
+        named = any(isinstance(each, ast.Attribute) and each.attr == "publish_feedback" for each in walk(tree))
         if name == "ActionServer" and not named:
             yield (
                 call.lineno,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, walk
 
 # Comparisons of a length with a number that tell an empty list from all others.
 TELLS_EMPTY = frozenset({(ast.Eq, 0), (ast.NotEq, 0), (ast.Gt, 0), (ast.LtE, 0), (ast.Lt, 1), (ast.GtE, 1)})
@@ -16,14 +16,14 @@ EMPTIES = frozenset({"clear", "pop", "popleft", "remove"})
 def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
     """Yield the functions that answer to goals."""
     for function in functions(tree):
-        if any(isinstance(each, ast.Attribute) and each.attr in ("REJECT", "ACCEPT") for each in ast.walk(function)):
+        if any(isinstance(each, ast.Attribute) and each.attr in ("REJECT", "ACCEPT") for each in walk(function)):
             yield function
 
 
 def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
     """Find a length that is compared with another number than the one that tells an empty list."""
     for function in _judges(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.left, ast.Call):
                 continue
             limit = node.comparators[0]
@@ -43,7 +43,7 @@ def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
 def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
     """Find an answer to a goal by which a speed that is the limit itself is too much."""
     for function in _judges(tree):
-        for test in (each for each in ast.walk(function) if isinstance(each, ast.If | ast.IfExp)):
+        for test in (each for each in walk(function) if isinstance(each, ast.If | ast.IfExp)):
             body = " ".join(ast.unparse(each) for each in (test.body if isinstance(test, ast.If) else [test.body]))
             refuses = "REJECT" in body
             if refuses == ("ACCEPT" in body):
@@ -90,10 +90,10 @@ def _is_speed(node: ast.expr) -> bool:
 
 def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find abort() where a cancellation was asked for."""
-    for test in (each for each in ast.walk(tree) if isinstance(each, ast.If)):
+    for test in (each for each in walk(tree) if isinstance(each, ast.If)):
         if "is_cancel_requested" not in ast.unparse(test.test):
             continue
-        for call in (each for part in test.body for each in ast.walk(part) if isinstance(each, ast.Call)):
+        for call in (each for part in test.body for each in walk(part) if isinstance(each, ast.Call)):
             if isinstance(call.func, ast.Attribute) and call.func.attr == "abort":
                 yield (
                     call.lineno,
@@ -105,7 +105,7 @@ def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
 
 def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
     """Find a distance of a feedback that is made a whole number, where the field is a float."""
-    given = [(each.value, each.arg) for each in ast.walk(tree) if isinstance(each, ast.keyword)]
+    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
     given += [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
     for value, field in given:
         name = last_name(value.func) if isinstance(value, ast.Call) else ""
@@ -120,7 +120,7 @@ def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
 
 def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find an index of a feedback that is a quotient or is made a float, where the field is an int32."""
-    given = [(each.value, each.arg) for each in ast.walk(tree) if isinstance(each, ast.keyword)]
+    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
     given += [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
     for value, field in given:
         quotient = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div)
@@ -141,7 +141,7 @@ def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
 
 def _has_coordinates(tree: ast.AST, name: str) -> bool:
     """Return whether x and y of something are read."""
-    read = {ast.unparse(each) for each in ast.walk(tree) if isinstance(each, ast.Attribute)}
+    read = {ast.unparse(each) for each in walk(tree) if isinstance(each, ast.Attribute)}
     return {f"{name}.x", f"{name}.y"} <= read
 
 
@@ -149,9 +149,9 @@ def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
     """Yield each function that ends goals, with the attributes that `__init__` alone assigns, and what."""
     assigned: dict[str, list[tuple[str, str]]] = {}
     for function in functions(tree):
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Assign)):
+        for node in (each for each in walk(function) if isinstance(each, ast.Assign)):
             for target in node.targets:
-                for each in ast.walk(target):
+                for each in walk(target):
                     if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store):
                         assigned.setdefault(ast.unparse(each), []).append((function.name, ast.unparse(node.value)))
     once = {name: where[0][1] for name, where in assigned.items() if [each for each, _ in where] == ["__init__"]}
@@ -166,14 +166,14 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
         for name in (each for each, value in once.items() if value in ("[]", "list()", "deque()")):
             uses = [
                 (call.func.attr, call.lineno)
-                for call in ast.walk(tree)
+                for call in walk(tree)
                 if isinstance(call, ast.Call)
                 and isinstance(call.func, ast.Attribute)
                 and ast.unparse(call.func.value) == name
             ]
             inside = range(function.lineno, (function.end_lineno or function.lineno) + 1)
             grows = [line for method, line in uses if method in GROWS and line in inside]
-            deleted = any(isinstance(each, ast.Delete) and name in ast.unparse(each) for each in ast.walk(tree))
+            deleted = any(isinstance(each, ast.Delete) and name in ast.unparse(each) for each in walk(tree))
             if grows and not deleted and not any(method in EMPTIES for method, _ in uses):
                 yield (
                     grows[0],
@@ -186,10 +186,10 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
 def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find the index of a waypoint that goes on from goal to goal."""
     for function, once in _kept(tree):
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.AugAssign)):
+        for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
             name = ast.unparse(node.target)
             indexes = any(
-                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in ast.walk(function)
+                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in walk(function)
             )
             if once.get(name, "").lstrip("-").isdigit() and indexes:
                 yield (

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 LIMIT = "max_speed"
 
@@ -19,7 +19,7 @@ def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
 
 
 def _attributes(tree: ast.AST) -> Iterator[ast.Attribute]:
-    return (each for each in ast.walk(tree) if isinstance(each, ast.Attribute))
+    return (each for each in walk(tree) if isinstance(each, ast.Attribute))
 
 
 def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
@@ -37,7 +37,7 @@ def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
 def lists_are_never_none(tree: ast.AST) -> Iterator[Suspect]:
     """Find a goal without waypoints that is looked for by None."""
     for function in _judges(tree):
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Compare)):
+        for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
             other = node.comparators[0]
             if last_name(node.left) == "waypoints" and isinstance(other, ast.Constant) and other.value is None:
                 yield (
@@ -73,7 +73,7 @@ def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
     known = named_numbers(tree)
     for function in _judges(tree):
         own = {ast.unparse(target): value for target, value in assigned(tree)}
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.Compare)):
+        for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
             sides = [node.left, *node.comparators]
             if not any(last_name(each) == "speed" for each in sides):
                 continue

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import assigned, called
+from gz_course.grader.lint.syntax import assigned, called, walk
 
 Suspect = tuple[int, str, str]
 ASKS = "is_cancel_requested"
@@ -19,12 +19,12 @@ Loop = ast.While | ast.For
 
 def _asks(node: ast.AST) -> list[int]:
     """Return the lines that ask for a cancellation."""
-    return sorted(each.lineno for each in ast.walk(node) if isinstance(each, ast.Attribute) and each.attr == ASKS)
+    return sorted(each.lineno for each in walk(node) if isinstance(each, ast.Attribute) and each.attr == ASKS)
 
 
 def _askers(tree: ast.AST) -> set[str]:
     """Return the functions that ask for a cancellation, themselves or by a function that they call."""
-    functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
+    functions = [each for each in walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
     found = {each.name for each in functions if _asks(each)}
     for _ in functions:
         more = {each.name for each in functions if called(each) & found} - found
@@ -39,14 +39,14 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
     lines, askers = _asks(tree), _askers(tree)
     if not lines:
         return
-    for loop in ast.walk(tree):
+    for loop in walk(tree):
         if not isinstance(loop, Loop) or not called(loop) & STEPS or _asks(loop) or called(loop) & askers:
             continue
         if not set().union(*map(called, loop.body)) - WAITS - LOGS:
             continue  # it only waits, such as for the first message
-        if any(isinstance(each, Loop) and each is not loop and called(each) & STEPS for each in ast.walk(loop)):
+        if any(isinstance(each, Loop) and each is not loop and called(each) & STEPS for each in walk(loop)):
             continue
-        around = any(isinstance(n, Loop) and loop in ast.walk(n) and lines[0] in _asks(n) for n in ast.walk(tree))
+        around = any(isinstance(n, Loop) and loop in walk(n) and lines[0] in _asks(n) for n in walk(tree))
         where = "for each waypoint, " if around else ""
         when = f"line {lines[0]} asks it {'once ' if around else ''}{where}outside of"
         yield loop.lineno, "cancel", f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
@@ -54,12 +54,12 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
 
 def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
     """Find a cancelled goal that breaks out of the inner of two loops, where nothing ends the outer one."""
-    for outer in (n for n in ast.walk(tree) if isinstance(n, Loop)):
+    for outer in (n for n in walk(tree) if isinstance(n, Loop)):
         for place, inner in enumerate(outer.body):
             if not isinstance(inner, Loop) or inner.orelse:
                 continue
-            behind = [each for part in outer.body[place + 1 :] for each in ast.walk(part)]
-            asked = [each for each in ast.walk(inner) if isinstance(each, ast.If) and _asks(each.test)]
+            behind = [each for part in outer.body[place + 1 :] for each in walk(part)]
+            asked = [each for each in walk(inner) if isinstance(each, ast.If) and _asks(each.test)]
             left = [part for each in asked for part in each.body if isinstance(part, ast.Break)]
             ahead = any(_asks(part) for part in outer.body[:place])
             if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
@@ -77,13 +77,13 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
         return  # it executes no goals
     made: dict[str, list[ast.Assign]] = {}
     counted = {}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 made.setdefault(ast.unparse(target), []).append(node)
         elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
             counted[ast.unparse(node.target)] = node.lineno
-    handed = {ast.unparse(n.value) for n in ast.walk(tree) if isinstance(n, ast.Assign | ast.keyword)}
+    handed = {ast.unparse(n.value) for n in walk(tree) if isinstance(n, ast.Assign | ast.keyword)}
     first = _lines_of_init(tree)
     for name, line in counted.items():
         whole, _, field = name.rpartition(".")
@@ -107,13 +107,13 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _lines_of_init(tree: ast.AST) -> set[int]:
-    functions = (n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef) and n.name == "__init__")
+    functions = (n for n in walk(tree) if isinstance(n, ast.FunctionDef) and n.name == "__init__")
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
 def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
             continue
         left, limit = ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
@@ -134,7 +134,7 @@ def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
 
 def summed_places(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is a sum of velocities, where the odometry says the place itself."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
             continue
         if ".twist.linear" in ast.unparse(node.value) and ast.unparse(node.target).startswith("self."):
@@ -148,11 +148,11 @@ def summed_places(tree: ast.AST) -> Iterator[Suspect]:
 
 def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
     """Find a program that reads the velocity of the odometry, and nowhere its position."""
-    named = {each.attr: each for each in ast.walk(tree) if isinstance(each, ast.Attribute)}
+    named = {each.attr: each for each in walk(tree) if isinstance(each, ast.Attribute)}
     if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
         return
     whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".twist.twist")}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
             owner = ast.unparse(node.value)
             if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, walk
 
 
 def _turns(block: list[ast.stmt]) -> bool:
@@ -18,7 +18,7 @@ def _turns(block: list[ast.stmt]) -> bool:
 
 def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
     """Yield the name of a phase, and its value in which alone the robot turns."""
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.If)):
+    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
         name = ""
         value: object = None
         match node.test:
@@ -39,7 +39,7 @@ def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
         ends: list[tuple[ast.Assign, bool]] = []
         for function in functions(tree):
             straight = {id(statement) for statement in function.body}
-            for statement in (each for each in ast.walk(function) if isinstance(each, ast.Assign)):
+            for statement in (each for each in walk(function) if isinstance(each, ast.Assign)):
                 for target, given in assigned(statement):
                     if ast.unparse(target) != name:
                         continue

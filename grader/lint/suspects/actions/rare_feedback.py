@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, called, calls, functions
+from gz_course.grader.lint.syntax import Suspect, called, calls, functions, walk
 
 Loop = ast.While | ast.For | ast.AsyncFor
 SENDS = "publish_feedback"
@@ -30,8 +30,8 @@ def _drivers(tree: ast.AST, node: ast.AST) -> Iterator[Loop]:
     places = [node, *(each for each in functions(tree) if each.name in called(node))]
     steps = _reaching(tree, STEPS)
     for place in places:
-        for loop in (each for each in ast.walk(place) if isinstance(each, Loop)):
-            inner = [each for each in ast.walk(loop) if isinstance(each, Loop) and each is not loop]
+        for loop in (each for each in walk(place) if isinstance(each, Loop)):
+            inner = [each for each in walk(loop) if isinstance(each, Loop) and each is not loop]
             if called(loop) & steps and not any(called(each) & steps for each in inner):
                 yield loop
 
@@ -59,8 +59,8 @@ def under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
         return
     around = [
         node
-        for node in ast.walk(tree)
-        if isinstance(node, ast.If) and any(each is sent[0] for part in node.body for each in ast.walk(part))
+        for node in walk(tree)
+        if isinstance(node, ast.If) and any(each is sent[0] for part in node.body for each in walk(part))
     ]
     if around and not CLOCK.search(ast.unparse(around[-1].test)):  # the innermost one is walked to last
         yield sent[0].lineno, "rare_feedback", f"{SENDS}() is called only if `{ast.unparse(around[-1].test)[:80]}`"

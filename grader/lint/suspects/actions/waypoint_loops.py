@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, walk
 
 POINTS = ("waypoints", "points", "goals", "targets", "route", "path", "todo")
 
@@ -20,7 +20,7 @@ def _drives(tree: ast.AST) -> Iterator[ast.FunctionDef]:
 def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
     """Find a return, or a break, that every round of a loop over waypoints comes to."""
     for function in _drives(tree):
-        for loop in (each for each in ast.walk(function) if isinstance(each, ast.For)):
+        for loop in (each for each in walk(function) if isinstance(each, ast.For)):
             for statement in loop.body:
                 if isinstance(statement, ast.Return | ast.Break):
                     what = "return" if isinstance(statement, ast.Return) else "break"
@@ -56,7 +56,7 @@ def _one_less(node: ast.AST | None) -> bool:
 def waypoints_left_out(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop over `waypoints[1:]`, `range(len(waypoints) - 1)` and the like."""
     for function in _drives(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             which, part = "", node
             match node:
                 case ast.For(iter=part) | ast.comprehension(iter=part):
@@ -71,7 +71,7 @@ def waypoints_left_out(tree: ast.AST) -> Iterator[Suspect]:
 
 def _left_out(given: ast.AST) -> str:
     """Return which waypoint a loop over something leaves out; empty if it is none."""
-    for node in ast.walk(given):
+    for node in walk(given):
         match node:
             case ast.Subscript(value=points, slice=ast.Slice(lower=lower, upper=upper)) if _is_points(points):
                 if _number(lower) > 0:
@@ -90,7 +90,7 @@ def _left_out(given: ast.AST) -> str:
 
 def _begins_at_one(function: ast.FunctionDef) -> Iterator[Suspect]:
     """Find an index that begins at 1 and counts up to the number of waypoints."""
-    loops = [each for each in ast.walk(function) if isinstance(each, ast.While) and isinstance(each.test, ast.Compare)]
+    loops = [each for each in walk(function) if isinstance(each, ast.While) and isinstance(each.test, ast.Compare)]
     counts = {
         ast.unparse(each.test.left)  # type: ignore[attr-defined]
         for each in loops
@@ -101,7 +101,7 @@ def _begins_at_one(function: ast.FunctionDef) -> Iterator[Suspect]:
         for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
             name = ast.unparse(target)
             indexes = any(
-                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in ast.walk(function)
+                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in walk(function)
             )
             if name in counts and _number(value) == 1 and indexes:
                 yield (

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, calls
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, walk
 
 OLDER, YOUNGER = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 LEAVES = ast.Return | ast.Continue
@@ -23,7 +23,7 @@ NANO = 1e9
 def turned(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if age > LIMIT:` before what uses the message, and `if age < LIMIT: return`."""
     values = _values(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If):
             continue
         drops, uses = isinstance(node.body[-1], LEAVES) and not _acts(node.body), _acts(node.body)
@@ -43,7 +43,7 @@ def turned(tree: ast.AST) -> Iterator[Suspect]:
 def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
     """Find a limit of the age that is never passed, and a branch for old messages that does not drop them."""
     values, names = _values(tree), named_numbers(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If):
             continue
         for test, holds in _parts(node.test, True):
@@ -95,8 +95,8 @@ def _endless(node: ast.expr) -> bool:
 
 def _in_seconds(node: ast.AST, values: dict[str, list[ast.expr]], steps: int) -> bool:
     """Return whether nanoseconds are divided, or not used at all, also by the names in an expression."""
-    parts = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
-    if any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.Mult) for each in ast.walk(node)):
+    parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    if any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.Mult) for each in walk(node)):
         return True
     if any(isinstance(each, ast.Attribute) and each.attr == "nanoseconds" for each in parts):
         return False
@@ -140,7 +140,7 @@ def _older(test: ast.expr, values: dict[str, list[ast.expr]]) -> bool | None:
 
 def _is_age(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bool:
     """Return whether an expression is the time now less that of a stamp."""
-    for each in ast.walk(node):
+    for each in walk(node):
         if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub):
             return _reads(each.left, "now", values, steps) and _reads(each.right, "stamp", values, steps)
         if isinstance(each, ast.Name | ast.Attribute) and steps:
@@ -152,7 +152,7 @@ def _is_age(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bo
 
 def _reads(node: ast.expr, name: str, values: dict[str, list[ast.expr]], steps: int) -> bool:
     """Return whether an expression has an attribute of that name, also by the names in it."""
-    parts = [each for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
     if any(isinstance(each, ast.Attribute) and each.attr == name for each in parts):
         return True
     given = [value for each in parts for value in values.get(ast.unparse(each), ())]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, called, functions
+from gz_course.grader.lint.syntax import Suspect, called, functions, walk
 
 
 def aliases(tree: ast.AST) -> Iterator[Suspect]:
     """Find `grid = self.map` followed by `grid[...] = ...` in a function that publishes no map."""
     for function in functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Assign) or len(node.targets) != 1:
                 continue
             target, value = node.targets[0], node.value
@@ -31,7 +31,7 @@ def _own(value: ast.Attribute) -> bool:
 
 def _changes(function: ast.FunctionDef, name: str, line: int) -> Iterator[ast.stmt]:
     """Yield the statements after a line that set parts of an array, or change it in place."""
-    for node in ast.walk(function):
+    for node in walk(function):
         target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
         if not isinstance(node, ast.Assign | ast.AugAssign) or node.lineno <= line or target is None:
             continue

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, calls, functions
+from gz_course.grader.lint.syntax import Suspect, calls, functions, walk
 
 FEWEST = 2
 
@@ -17,15 +17,15 @@ def every_nth_call(tree: ast.Module) -> Iterator[Suspect]:
     for function in functions(tree):
         counters = {
             ast.unparse(node.target): node.lineno
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and ast.unparse(node.value) == "1"
         }
         zeroed = {
             ast.unparse(node.targets[0])
-            for node in ast.walk(function)
+            for node in walk(function)
             if isinstance(node, ast.Assign) and ast.unparse(node.value) == "0"
         }
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.If)):
+        for node in (each for each in walk(function) if isinstance(each, ast.If)):
             match node.test:
                 case (
                     ast.BinOp(op=ast.Mod(), left=counter, right=limit)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, walk
 
 
 def for_ever(tree: ast.Module) -> Iterator[Suspect]:
@@ -16,7 +16,7 @@ def for_ever(tree: ast.Module) -> Iterator[Suspect]:
     for function in functions(tree):
         for target, value in assigned(function):
             given.setdefault(ast.unparse(target), []).append((function.name, target, value))
-    asked = {ast.unparse(each) for test in _choosing(tree) for each in ast.walk(test)}
+    asked = {ast.unparse(each) for test in _choosing(tree) for each in walk(test)}
     for name, values in given.items():
         later = [(target, value) for function, target, value in values if function != "__init__"]
         ever = bool(later) and all(isinstance(value, ast.Constant) and value.value is True for _, value in later)
@@ -30,7 +30,7 @@ def for_ever(tree: ast.Module) -> Iterator[Suspect]:
 
 def _choosing(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield the conditions on which a value of angular.z depends."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.IfExp) or (isinstance(node, ast.If) and _sets_the_rate(node)):
             yield node.test
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, called, functions
+from gz_course.grader.lint.syntax import Suspect, called, functions, walk
 
 # Parts of names that keep a first value on purpose.
 FIRST = ("start", "first", "begin", "origin", "home", "init", "zero", "ref", "from", "old", "last", "prev")
@@ -31,7 +31,7 @@ def _set_by(tree: ast.AST) -> dict[str, set[str]]:
     """Return which functions assign each attribute of self as a whole."""
     found: dict[str, set[str]] = {}
     for function in functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if (
                 isinstance(node, ast.Attribute)
                 and isinstance(node.ctx, ast.Store)
@@ -47,7 +47,7 @@ def _copies(function: ast.FunctionDef, tree: ast.AST) -> Iterator[tuple[str, ast
 
     A parameter is one if the file calls the function with something of self.
     """
-    for node in ast.walk(function):
+    for node in walk(function):
         if not isinstance(node, ast.Assign) or len(node.targets) != 1:
             continue
         target, value = node.targets[0], node.value
@@ -57,7 +57,7 @@ def _copies(function: ast.FunctionDef, tree: ast.AST) -> Iterator[tuple[str, ast
             pairs = list(zip(target.elts, values, strict=False))
         yield from ((one.id, other, node.lineno) for one, other in pairs if isinstance(one, ast.Name))
     names = [each.arg for each in function.args.args if each.arg != "self"]
-    for call in (each for each in ast.walk(tree) if isinstance(each, ast.Call)):
+    for call in (each for each in walk(tree) if isinstance(each, ast.Call)):
         if isinstance(call.func, ast.Attribute) and call.func.attr == function.name:
             yield from ((name, value, call.lineno) for name, value in zip(names, call.args, strict=False))
 
@@ -71,8 +71,8 @@ def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
             for each in _copies(function, tree)
             if set_by.get(_attribute(each[1]), set()) - {"__init__", function.name}
         ]
-        for loop in (each for each in ast.walk(function) if isinstance(each, ast.While) and called(each) & WAITS):
-            names = [each for each in ast.walk(loop) if isinstance(each, ast.Name)]
+        for loop in (each for each in walk(function) if isinstance(each, ast.While) and called(each) & WAITS):
+            names = [each for each in walk(loop) if isinstance(each, ast.Name)]
             read = {each.id for each in names if isinstance(each.ctx, ast.Load)}
             anew = {each.id for each in names if isinstance(each.ctx, ast.Store)}
             lines = range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
@@ -98,15 +98,15 @@ def first_message_kept(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that takes what it keeps from its first message only."""
     for function in functions(tree):
         message = {each.arg for each in function.args.args if each.arg != "self"}
-        for test in (each for each in ast.walk(function) if isinstance(each, ast.If)):
+        for test in (each for each in walk(function) if isinstance(each, ast.If)):
             name = _tested_for_none(test.test)
-            inside = [each for part in test.body for each in ast.walk(part)]
+            inside = [each for part in test.body for each in walk(part)]
             sets = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, name)]
             if not name or _on_purpose(name) or not sets:
                 continue
-            others = [each for each in ast.walk(tree) if isinstance(each, ast.Assign) and _sets(each, name)]
+            others = [each for each in walk(tree) if isinstance(each, ast.Assign) and _sets(each, name)]
             anew = [each for each in others if each not in sets and ast.unparse(each.value) != "None"]
-            if not anew and {each.id for each in ast.walk(sets[0].value) if isinstance(each, ast.Name)} & message:
+            if not anew and {each.id for each in walk(sets[0].value) if isinstance(each, ast.Name)} & message:
                 yield (
                     sets[0].lineno,
                     "first_kept",
@@ -123,13 +123,13 @@ def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
             if not isinstance(test, ast.If) or ast.unparse(test.body[-1]) not in ("return", "return None"):
                 continue
             name = _tested_for_a_value(test.test)
-            behind = [node for part in function.body[place + 1 :] for node in ast.walk(part)]
+            behind = [node for part in function.body[place + 1 :] for node in walk(part)]
             sets = [node for node in behind if isinstance(node, ast.Assign) and _sets(node, name)]
-            others = [node for node in ast.walk(tree) if isinstance(node, ast.Assign) and _sets(node, name)]
+            others = [node for node in walk(tree) if isinstance(node, ast.Assign) and _sets(node, name)]
             anew = [node for node in others if node not in sets and ast.unparse(node.value) != "None"]
             if not name or _on_purpose(name) or not sets or anew:
                 continue
-            if {node.id for node in ast.walk(sets[0].value) if isinstance(node, ast.Name)} & message:
+            if {node.id for node in walk(sets[0].value) if isinstance(node, ast.Name)} & message:
                 yield (
                     test.lineno,
                     "first_kept",
@@ -156,7 +156,7 @@ def _sets(node: ast.Assign, name: str) -> bool:
     return any(
         isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store) and _attribute(each) == name
         for target in node.targets
-        for each in ast.walk(target)
+        for each in walk(target)
     )
 
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, walk
 
 EMPTY = re.compile(r"^not |\bis None\b|^len\(.*\) (?:== 0|< 1)$|== \[\]$")
 
@@ -17,7 +17,7 @@ def finished_for_ever(tree: ast.AST) -> Iterator[Suspect]:
         if not _guards(tree, name):
             continue
         for function in functions(tree):
-            for node in (each for each in ast.walk(function) if isinstance(each, ast.If)):
+            for node in (each for each in walk(function) if isinstance(each, ast.If)):
                 place = next((each for each in node.body if each.lineno in places), None)
                 test = ast.unparse(node.test)
                 if place is not None and EMPTY.search(test) and name not in test and ".scan" not in test:
@@ -84,7 +84,7 @@ def _flags(tree: ast.AST) -> dict[str, set[int]]:
 
 def _guards(tree: ast.AST, name: str) -> bool:
     """Return whether a function does nothing, or leaves out most of what it does, once a flag is set."""
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.If)):
+    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
         parts = [
             ast.unparse(each) for each in ([*node.test.values] if isinstance(node.test, ast.BoolOp) else [node.test])
         ]

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.suspects.steering.sleeps import reached
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, walk
 
 FADES = 0.998  # a factor at which half is left after a minute or more
 EMPTIES = frozenset({"clear", "fill"})
@@ -26,7 +26,7 @@ def forgets(tree: ast.AST) -> Iterator[Suspect]:
     }
     parts = {
         ast.unparse(node.value)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Subscript) and not isinstance(node.value, ast.Subscript)
     }
     for function in reached(tree):
@@ -58,7 +58,7 @@ def fades(tree: ast.AST) -> Iterator[Suspect]:
     known = named_numbers(tree)
     arrays = {ast.unparse(one) for one, value in assigned(tree) if _holds_much(value)}
     for function in reached(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             match node:
                 case ast.AugAssign(target=ast.Attribute() as whole, op=ast.Mult(), value=factor):
                     given = number(factor, known)
@@ -87,7 +87,7 @@ def short_memory(tree: ast.AST) -> Iterator[Suspect]:
         if function.name in callbacks or re.search(r"scan", ast.unparse(call.args[0] if call.args else call))
     }
     emptied = {ast.unparse(call.func).rpartition(".")[0] for call, name in calls(tree) if name in TAKEN_OUT}
-    looped = {ast.unparse(each.iter) for each in ast.walk(tree) if isinstance(each, ast.For | ast.comprehension)}
+    looped = {ast.unparse(each.iter) for each in walk(tree) if isinstance(each, ast.For | ast.comprehension)}
     for target, value in assigned(tree):
         name = ast.unparse(target)
         limit = next((each.value for each in getattr(value, "keywords", []) if each.arg == "maxlen"), None)
@@ -101,7 +101,7 @@ def short_memory(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _factors(value: ast.expr, name: str, known: dict[str, Number]) -> Iterator[Number]:
-    for node in ast.walk(value):
+    for node in walk(value):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
             for one, other in ((node.left, node.right), (node.right, node.left)):
                 factor = number(one, known)

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 CELL = 0.1  # [m]
 NARROW, WIDE = 2, 5  # [cells] at most, at least
@@ -40,7 +40,7 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
     for function in functions(tree):
         reaches = [
             (each.iter.lineno, name)
-            for each in ast.walk(function)
+            for each in walk(function)
             if isinstance(each, ast.For | ast.comprehension) and (name := _reach(each.iter))
         ]
         names = [each.arg for each in function.args.args if each.arg != "self"]
@@ -76,7 +76,7 @@ def _reach(of: ast.expr) -> str:
 
 def _made_at(function: ast.FunctionDef, name: str) -> int:
     """Return the line of a function that assigns a name; 0 if it does not."""
-    made = (each for each in ast.walk(function) if isinstance(each, ast.Assign))
+    made = (each for each in walk(function) if isinstance(each, ast.Assign))
     return next((each.lineno for each in made if name in [ast.unparse(target) for target in each.targets]), 0)
 
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, calls, functions, last_name, walk
 
 CORNER_X = re.compile(
     r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
@@ -50,7 +50,7 @@ def _part(node: ast.expr) -> tuple[str, str]:
 
 def corner_minus_point(tree: ast.AST) -> Iterator[Suspect]:
     """Find `(BOTTOM - y) / RESOLUTION`, which is negative for every point in the map."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.BinOp(left=ast.BinOp(left=point, op=ast.Div() | ast.FloorDiv()), op=ast.Sub(), right=corner):
                 text, other = ast.unparse(corner), ast.unparse(point)
@@ -75,7 +75,7 @@ def corner_minus_point(tree: ast.AST) -> Iterator[Suspect]:
 
 def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
     """Find `x0 + (row + 0.5) * resolution`: x grows with the column."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
             continue
         corner, rest = ast.unparse(node.left), ast.unparse(node.right)
@@ -91,7 +91,7 @@ def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
 
 def assigned_wholes(tree: ast.AST) -> Iterator[tuple[str, ast.Tuple]]:
     """Yield the name of each attribute to which a tuple is assigned, and the tuple."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple):
             yield from ((each.attr, node.value) for each in node.targets if isinstance(each, ast.Attribute))
 
@@ -101,7 +101,7 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
     kept: dict[str, set[tuple[str, ...]]] = {}
     for owner, value in assigned_wholes(tree):
         kept.setdefault(owner, set()).add(tuple(last_name(each) for each in value.elts))
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Assign)):
+    for node in (each for each in walk(tree) if isinstance(each, ast.Assign)):
         target, orders = node.targets[0], kept.get(last_name(node.value), set())
         if not isinstance(target, ast.Tuple) or len(orders) != 1:
             continue

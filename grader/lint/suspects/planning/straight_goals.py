@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 NEAREST = frozenset({"min", "argmin", "sorted", "argsort", "sort"})
 DISTANCE = re.compile(r"\bhypot\(|\bnorm\(|\bdist(?:ance)?\(|\*\* 2")
@@ -15,7 +15,7 @@ TAKES = frozenset({"pop", "popleft", "heappop", "get", "get_nowait"})
 
 def straight_goals(tree: ast.AST) -> Iterator[Suspect]:
     """Find the nearest of several cells as the crow flies, where no loop takes cells out of a queue."""
-    loops = (node for node in ast.walk(tree) if isinstance(node, ast.While | ast.For))
+    loops = (node for node in walk(tree) if isinstance(node, ast.While | ast.For))
     if any(called(loop) & TAKES and called(loop) & {"append", "heappush", "put", "add"} for loop in loops):
         return
     if "OccupancyGrid" not in ast.unparse(tree):

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.planning.ways import SHORTENS, TURNS_ROUND, never_shortened
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, walk
 
 COLLECTS = frozenset({"append", "insert", "appendleft"})
 
@@ -15,7 +15,7 @@ def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
     """Find a file that reads only the first, or only the last, cell of a way that it searched from start to goal."""
     if any(never_shortened(tree)):
         return  # which says more
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         for way in {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}:
             makers = [each for each in functions(owner) if each.name != "__init__" and _makes(each, way)]
             turned = any(called(each) & TURNS_ROUND or "[::-1]" in ast.unparse(each) for each in makers)
@@ -25,7 +25,7 @@ def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
             cut = any(f"{way}[1:]" in ast.unparse(each) or "[1:]" in ast.unparse(each) for each in functions(owner))
             read = [
                 node
-                for node in ast.walk(owner)
+                for node in walk(owner)
                 if isinstance(node, ast.Subscript) and ast.unparse(node.value) == way and isinstance(node.ctx, ast.Load)
             ]
             kinds = {ast.unparse(node.slice) for node in read}
@@ -57,7 +57,7 @@ def _makes(function: ast.FunctionDef, way: str) -> bool:
         return False
     return any(
         isinstance(value, ast.Subscript) and ast.unparse(value.slice) == ast.unparse(target)
-        for loop in ast.walk(function)
+        for loop in walk(function)
         if isinstance(loop, ast.While)
         for target, value in assigned(loop)
     )
@@ -65,7 +65,7 @@ def _makes(function: ast.FunctionDef, way: str) -> bool:
 
 def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.way.pop()` after a test of `self.way[0]`: the last cell is taken out, not the one that is reached."""
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.While | ast.If)):
+    for node in (each for each in walk(tree) if isinstance(each, ast.While | ast.If)):
         for call, name in (pair for part in node.body for pair in calls(part)):
             way = ast.unparse(call.func).rpartition(".")[0]
             whole = ast.unparse(node.test)

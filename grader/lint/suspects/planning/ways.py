@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.steering.headings import HEADING
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 SHORTENS = frozenset({"pop", "popleft", "remove", "clear"})
 COLLECTS = frozenset({"append", "insert", "appendleft"})
@@ -20,12 +20,12 @@ AIMED = frozenset({"atan2", "arctan2"})
 def depth_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find a search for a way that goes on from the cell that was added last."""
     for function in functions(tree):
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.While)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
             for target, value in assigned(loop):
                 if not isinstance(value, ast.Call) or last_name(value.func) != "pop" or value.args:
                     continue
                 queue = ast.unparse(value.func).rpartition(".")[0]
-                names = {each.id for each in ast.walk(target) if isinstance(each, ast.Name)}
+                names = {each.id for each in walk(target) if isinstance(each, ast.Name)}
                 added = any(ast.unparse(call.func) == f"{queue}.append" for call, _ in calls(loop))
                 kept = any(isinstance(one, ast.Subscript) and ast.unparse(other) in names for one, other in _set(loop))
                 if queue in ast.unparse(loop.test) and added and kept:
@@ -47,7 +47,7 @@ def backwards(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         if called(function) & TURNS_ROUND or "[::-1]" in ast.unparse(function) or "[-1]" in ast.unparse(tree):
             continue
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.While)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
             steps = {
                 ast.unparse(target)
                 for target, value in assigned(loop)
@@ -68,8 +68,8 @@ def backwards(tree: ast.AST) -> Iterator[Suspect]:
 
 def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
     """Find a way that is planned only while there is none, and of which no cell is ever taken out."""
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
-        for node in (each for each in ast.walk(owner) if isinstance(each, ast.If)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        for node in (each for each in walk(owner) if isinstance(each, ast.If)):
             match node.test:
                 case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute() as kept):
                     way = ast.unparse(kept)
@@ -82,8 +82,8 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
                 case _:
                     continue
             planners = _planners(owner, way)
-            in_test = {id(each) for part in node.body for each in ast.walk(part)}
-            there = {id(each) for one in functions(owner) if one.name in planners for each in ast.walk(one)}
+            in_test = {id(each) for part in node.body for each in walk(part)}
+            there = {id(each) for one in functions(owner) if one.name in planners for each in walk(one)}
             planned = any(
                 ast.unparse(target) == way
                 and isinstance(value, ast.Call)
@@ -93,9 +93,7 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
             calls_planner = planners & called(node)
             # Whatever changes the way anywhere but where it is planned may take cells out of it.
             inside = (
-                in_test
-                | there
-                | {id(each) for one in functions(owner) if one.name == "__init__" for each in ast.walk(one)}
+                in_test | there | {id(each) for one in functions(owner) if one.name == "__init__" for each in walk(one)}
             )
             others = [
                 target
@@ -106,10 +104,8 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
                 name in SHORTENS and ast.unparse(call.func).startswith(f"{way}.") and id(call) not in there
                 for call, name in calls(owner)
             )
-            deleted = any(isinstance(each, ast.Delete) and way in ast.unparse(each) for each in ast.walk(owner))
-            followed = any(
-                isinstance(each, ast.Subscript) and ast.unparse(each.value) == way for each in ast.walk(owner)
-            )
+            deleted = any(isinstance(each, ast.Delete) and way in ast.unparse(each) for each in walk(owner))
+            followed = any(isinstance(each, ast.Subscript) and ast.unparse(each.value) == way for each in walk(owner))
             again = calls_planner and any(
                 last_name(call.func) in calls_planner and id(call) not in in_test for call, _ in calls(owner)
             )
@@ -130,7 +126,7 @@ def _planners(owner: ast.ClassDef, way: str) -> set[str]:
         if one.name != "__init__"
         and any(ast.unparse(target) == way for target, _ in assigned(one))
         and (called(one) & COLLECTS)
-        and any(isinstance(each, ast.While) for each in ast.walk(one))
+        and any(isinstance(each, ast.While) for each in walk(one))
     }
 
 
@@ -154,7 +150,7 @@ def first_pose(tree: ast.AST) -> Iterator[Suspect]:
                 ast.unparse(part)
                 for target, _ in assigned(function)
                 if target.lineno > node.lineno
-                for part in ast.walk(target)
+                for part in walk(target)
                 if isinstance(part, ast.Attribute)
             }
             elsewhere = any(
@@ -180,8 +176,8 @@ def small_counters(tree: ast.AST) -> Iterator[Suspect]:
         if isinstance(value, ast.Call) and SMALL.search(ast.unparse(value)) and last_name(value.func) != "astype"
     }
     for function in functions(tree):
-        limited = {ast.unparse(each) for call, name in calls(function) if name in HOLDS for each in ast.walk(call)}
-        for node in ast.walk(function):
+        limited = {ast.unparse(each) for call, name in calls(function) if name in HOLDS for each in walk(call)}
+        for node in walk(function):
             name = ""
             if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Subscript | ast.Attribute):
                 whole = node.target.value if isinstance(node.target, ast.Subscript) else node.target
@@ -210,7 +206,7 @@ def turned_the_wrong_way(tree: ast.AST) -> Iterator[Suspect]:
         if called(value) & AIMED and not re.search(r"\.[wz]\b", ast.unparse(value))
     }
     for target, value in assigned(tree):
-        for node in ast.walk(value):
+        for node in walk(value):
             if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
                 continue
             left, right = ast.unparse(node.left), ast.unparse(node.right)
@@ -221,7 +217,7 @@ def turned_the_wrong_way(tree: ast.AST) -> Iterator[Suspect]:
             used = [
                 other
                 for one, other in assigned(tree)
-                if ast.unparse(one).endswith("angular.z") and error in {ast.unparse(each) for each in ast.walk(other)}
+                if ast.unparse(one).endswith("angular.z") and error in {ast.unparse(each) for each in walk(other)}
             ]
             if used and all(_sign(each, error, values) > 0 for each in used):
                 yield (
@@ -268,7 +264,7 @@ def cells_for_metres(tree: ast.AST) -> Iterator[Suspect]:
     for target, value in assigned(tree):
         if _of_a_path(value) and isinstance(target, ast.Tuple):
             cells |= {each.id: ast.unparse(value) for each in target.elts if isinstance(each, ast.Name)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and ast.unparse(node.right) in poses:
             name = ast.unparse(node.left)
             if name in cells:
@@ -310,8 +306,8 @@ def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
 def part_of_a_scan(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that goes through a part of the rays while it draws a map."""
     for function in functions(tree):
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
-            for node in ast.walk(loop.iter):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
+            for node in walk(loop.iter):
                 part = isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) and node.slice.step is None
                 if isinstance(node, ast.Subscript) and part and ast.unparse(node.value).endswith(".ranges"):
                     yield (

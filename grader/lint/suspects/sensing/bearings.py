@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, called
+from gz_course.grader.lint.syntax import Suspect, assigned, called, walk
 
 INCREMENT = "angle_increment"
 OFFSETS = re.compile(r"\bangle_m(?:in|ax)\b")
@@ -23,15 +23,15 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
     steps = {INCREMENT} | {
         ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(f".{INCREMENT}")
     }
-    parent = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
+    parent = {child: node for node in walk(tree) for child in ast.iter_child_nodes(node)}
     numbers = _numbers_of_rays(tree)
     summed = {
         ast.unparse(side)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub | ast.Mod)
         for side in (node.left, node.right)
-    } | {ast.unparse(node.target) for node in ast.walk(tree) if isinstance(node, ast.AugAssign)}
-    for node in ast.walk(tree):
+    } | {ast.unparse(node.target) for node in walk(tree) if isinstance(node, ast.AugAssign)}
+    for node in walk(tree):
         if (by_hand := _degree_for_each_ray(node, numbers)) and not _shifted(node, parent, summed):
             yield (
                 by_hand,
@@ -75,7 +75,7 @@ def _is_step(text: str, steps: set[str]) -> bool:
 def _numbers_of_rays(tree: ast.AST) -> set[str]:
     """Return the names that count rays in loops."""
     found = set()
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.For | ast.comprehension) and isinstance(node.iter, ast.Call):
             called = ast.unparse(node.iter.func)
             if called == "enumerate" and isinstance(node.target, ast.Tuple):
@@ -86,7 +86,7 @@ def _numbers_of_rays(tree: ast.AST) -> set[str]:
 
 
 def _sum(node: ast.AST) -> bool:
-    return any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Add | ast.Sub) for each in ast.walk(node))
+    return any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Add | ast.Sub) for each in walk(node))
 
 
 def _shifted(node: ast.AST, parent: dict[ast.AST, ast.AST], summed: set[str]) -> bool:
@@ -108,7 +108,7 @@ def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
     if called(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", ast.unparse(tree)):
         return
     known, names = named_numbers(tree), _radians(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         pairs: list[tuple[ast.expr, ast.expr]] = []
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
             pairs = [(node.left, node.right)]
@@ -156,7 +156,7 @@ def _radians(tree: ast.AST) -> set[str]:
 def _is_index(node: ast.expr) -> bool:
     """Return whether a value is a number of rays, not an angle."""
     return bool(called(node) & {"int", "round", "len", "floor", "ceil"}) or any(
-        isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.FloorDiv) for each in ast.walk(node)
+        isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.FloorDiv) for each in walk(node)
     )
 
 

@@ -7,14 +7,14 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.sensing.gyroscopes import angle_sums, reads_rates
-from gz_course.grader.lint.syntax import Suspect, assigned
+from gz_course.grader.lint.syntax import Suspect, assigned, walk
 
 BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
 
 
 def _biases(node: ast.AST) -> set[str]:
     """Return the names in an expression that stand for a bias."""
-    parts = (ast.unparse(each) for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute))
+    parts = (ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute))
     return {each for each in parts if BIAS.search(each)}
 
 
@@ -58,14 +58,14 @@ def never_used(tree: ast.AST) -> Iterator[Suspect]:
         if not BIAS.search(name):
             continue
         places = [value for target, value in assigned(tree) if ast.unparse(target) == name]
-        own = {id(each) for value in places for each in ast.walk(value)}
+        own = {id(each) for value in places for each in walk(value)}
         tail = name.rpartition(".")[2]
         read = any(
             isinstance(each, ast.Name | ast.Attribute)
             and isinstance(each.ctx, ast.Load)
             and ast.unparse(each).rpartition(".")[2] == tail
             and id(each) not in own
-            for each in ast.walk(tree)
+            for each in walk(tree)
         )
         measured = [value for value in places if not isinstance(value, ast.Constant)]
         if not read and measured:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
-from gz_course.grader.lint.syntax import Suspect, last_name
+from gz_course.grader.lint.syntax import Suspect, last_name, walk
 
 Guards = frozenset[tuple[str, bool]]  # conditions under which a statement is reached, and whether they hold
 ADDS = frozenset({"append", "appendleft"})
@@ -63,7 +63,7 @@ def _subtracted(whole: ast.expr, live: list[ast.stmt], values: dict[str, ast.exp
     """Return the attributes that what is subtracted from a rate is made of, in the statements of the same call."""
     found = {
         name
-        for node in ast.walk(whole)
+        for node in walk(whole)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and "angular_velocity" in ast.unparse(node.left)
         for name in _attributes(node.right)
     }
@@ -74,7 +74,7 @@ def _subtracted(whole: ast.expr, live: list[ast.stmt], values: dict[str, ast.exp
 
 
 def _attributes(node: ast.AST) -> set[str]:
-    return {ast.unparse(each) for each in ast.walk(node) if isinstance(each, ast.Attribute)}
+    return {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Attribute)}
 
 
 LOOKS = (collected_in_the_turn,)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, walk
 
 Loop = ast.For | ast.comprehension
 
@@ -31,7 +31,7 @@ def largest_range(tree: ast.Module) -> Iterator[Suspect]:
 
 def _of_ranges(function: ast.FunctionDef) -> Iterator[str]:
     """Yield the names of lists that are filled from the ranges of a scan."""
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.For) and ".ranges" in ast.unparse(node.iter):
             for call, name in calls(node):
                 if name == "append":

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.steering.headings import TO_RADIANS
-from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name, walk
 
 TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
 WRAPS = frozenset({"remainder", "fmod", "atan2", "arctan2", "wrap", "normalize", "normalize_angle"})
@@ -24,7 +24,7 @@ DEPTH = 4  # steps in which a name is replaced by what it was assigned
 
 def reads_rates(tree: ast.AST) -> Iterator[ast.FunctionDef]:
     """Yield the functions that read a turning rate."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.FunctionDef) and "angular_velocity" in ast.unparse(node):
             yield node
 
@@ -32,7 +32,7 @@ def reads_rates(tree: ast.AST) -> Iterator[ast.FunctionDef]:
 def _sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr]]:
     """Yield the statements that make an attribute of a rate: the statement, the attribute, and what is added."""
     values = assigned_once(function)
-    for node in ast.walk(function):
+    for node in walk(function):
         target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
         if not isinstance(node, ast.Assign | ast.AugAssign) or not isinstance(target, ast.Attribute):
             continue
@@ -92,13 +92,13 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
         values = assigned_once(function)
         for node, name, value in _sums(function):
             whole = expanded(value, values)
-            names = {ast.unparse(each) for each in ast.walk(whole) if isinstance(each, ast.Name | ast.Attribute)}
+            names = {ast.unparse(each) for each in walk(whole) if isinstance(each, ast.Name | ast.Attribute)}
             others = [each for each in names if each not in constants and TIMES.search(each)]
             if others or not _adds(node, name) or f"{name} / " in ast.unparse(tree):
                 continue  # a sum that is divided is on its way to be a mean
             factors = [each for each in names if each in constants and each != name and "bias" not in each]
             numbers = [
-                each.value for each in ast.walk(whole) if isinstance(each, ast.Constant) and each.value not in (0, 1)
+                each.value for each in walk(whole) if isinstance(each, ast.Constant) and each.value not in (0, 1)
             ]
             if factors or numbers:
                 yield (
@@ -137,12 +137,12 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is brought back into one turn."""
     for function in reads_rates(tree):
         names = {name for _, name, _ in _sums(function)}
-        for node in ast.walk(function):
+        for node in walk(function):
             target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
             if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or ast.unparse(target) not in names:
                 continue
             wraps = bool(called(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
-            wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in ast.walk(node.value))
+            wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in walk(node.value))
             wraps |= (
                 isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in ast.unparse(node.value)
             )
@@ -159,7 +159,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
     """Find another axis than z, the orientation of the message, and parts of stamps."""
     for function in reads_rates(tree):
         text = ast.unparse(function)
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.Attribute) and ast.unparse(node).endswith(
                 ("angular_velocity.x", "angular_velocity.y")
             ):
@@ -171,12 +171,12 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
                     f"{ast.unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
                 )
         if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
-            line = next(n.lineno for n in ast.walk(function) if isinstance(n, ast.Attribute) and n.attr == "nanosec")
+            line = next(n.lineno for n in walk(function) if isinstance(n, ast.Attribute) and n.attr == "nanosec")
             yield line, "gyroscope", "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
         if re.search(r"stamp\.sec\b", text) and ".nanosec" not in text:
-            line = next(n.lineno for n in ast.walk(function) if isinstance(n, ast.Attribute) and n.attr == "sec")
+            line = next(n.lineno for n in walk(function) if isinstance(n, ast.Attribute) and n.attr == "sec")
             yield line, "gyroscope", "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Call) and ast.unparse(node.func) == "sum" and _undivided(tree, node):
             given = ast.unparse(node)
             if re.search("rate|bias|gyro|still|offset|sample", given):
@@ -187,10 +187,10 @@ def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is compared with 360 where nothing makes degrees."""
     if called(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
         return
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare):
             continue
-        numbers = [each.value for each in ast.walk(node) if isinstance(each, ast.Constant)]
+        numbers = [each.value for each in walk(node) if isinstance(each, ast.Constant)]
         if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", ast.unparse(node)):
             yield (
                 node.lineno,
@@ -201,8 +201,8 @@ def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
 
 def _undivided(tree: ast.AST, call: ast.Call) -> bool:
     """Say whether a sum stands in no division, and is not given a name that might be divided later."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) and any(e is call for e in ast.walk(node.left)):
+    for node in walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) and any(e is call for e in walk(node.left)):
             return False
     return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
 
@@ -214,10 +214,10 @@ def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
         for node, _, value in _sums(function):
             yield from _part_of_time(node.lineno, ast.unparse(expanded(value, values)))
     whole = ast.unparse(tree)
-    for other in ast.walk(tree):
+    for other in walk(tree):
         if not isinstance(other, ast.FunctionDef) or len(re.findall(rf"\b{other.name}\(", whole)) < 2:
             continue
-        for each in ast.walk(other):
+        for each in walk(other):
             if (
                 isinstance(each, ast.Return)
                 and each.value is not None
@@ -249,7 +249,7 @@ def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     for function in reads_rates(tree):
         values = assigned_once(function)
         names = {name for _, name, _ in _sums(function)}
-        for node in ast.walk(function):
+        for node in walk(function):
             text = ast.unparse(node) if isinstance(node, ast.Call | ast.BinOp) else ""
             given: ast.expr | None = None
             if isinstance(node, ast.Call) and last_name(node.func) in TO_RADIANS and node.args:
@@ -277,7 +277,7 @@ def biases(tree: ast.AST) -> Iterator[Suspect]:
     for function in reads_rates(tree):
         for _, _, value in _sums(function):
             made = _made_of(tree, value, lists)
-            for part in (each for given in (*made, value) for each in ast.walk(given)):
+            for part in (each for given in (*made, value) for each in walk(given)):
                 words = _no_mean(part, lists)
                 if words and (isinstance(part, ast.Call) or _subtracted(tree, part)):
                     yield (
@@ -301,13 +301,13 @@ def _made_of(tree: ast.AST, value: ast.expr, lists: set[str]) -> list[ast.expr]:
 
 
 def _names(value: ast.expr) -> set[str]:
-    return {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name | ast.Attribute)}
+    return {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Name | ast.Attribute)}
 
 
 def _subtracted(tree: ast.AST, part: ast.AST) -> bool:
     """Say whether an expression is subtracted from something, or is called a bias."""
     return any(
-        (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and node.right is part) for node in ast.walk(tree)
+        (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and node.right is part) for node in walk(tree)
     ) or any(value is part and re.search("bias|offset|drift|zero", ast.unparse(name)) for name, value in assigned(tree))
 
 
@@ -329,7 +329,7 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
     """Yield the names of the lists to which rates are appended."""
     for function in reads_rates(tree):
         values = assigned_once(function)
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Call) or last_name(node.func) not in ("append", "appendleft") or not node.args:
                 continue
             if "angular_velocity" in ast.unparse(expanded(node.args[0], values)):
@@ -344,7 +344,7 @@ def signs(tree: ast.AST) -> Iterator[Suspect]:
             if not _adds(node, name):
                 continue
             whole = expanded(value, values)
-            for each in ast.walk(whole):
+            for each in walk(whole):
                 if not isinstance(each, ast.BinOp) or not isinstance(each.op, ast.Sub):
                     continue
                 left, right = ast.unparse(each.left), ast.unparse(each.right)

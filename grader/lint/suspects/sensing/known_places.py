@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.sensing.gyroscopes import assigned_once, expanded
 from gz_course.grader.lint.suspects.steering.headings import SINES
-from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, walk
 
 ADDS = frozenset({"append", "add", "insert"})
 ROUNDS = frozenset({"round", "around", "rint", "floor", "int", "trunc", "ceil"})
@@ -19,7 +19,7 @@ TURNS = SINES | {"exp", "rect", "Rotation", "from_euler", "rotation_matrix", "do
 def kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, ast.Call, str]]:
     """Yield the calls that add a place of two or more numbers to an attribute: function, call, attribute."""
     spoken = {ast.unparse(call.args[0]) for call in _calls(tree, {"len"}) if call.args}
-    for function in (each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)):
+    for function in (each for each in walk(tree) if isinstance(each, ast.FunctionDef)):
         for call in _calls(function, ADDS):
             name = ast.unparse(call.func).rpartition(".")[0]
             if name in spoken and name.startswith("self.") and call.args:
@@ -27,7 +27,7 @@ def kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, ast.Call, str]]:
 
 
 def _calls(tree: ast.AST, names: frozenset[str] | set[str]) -> Iterator[ast.Call]:
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Call) and last_name(node.func) in names:
             yield node
 
@@ -37,7 +37,7 @@ def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
     for function, call, name in kept(tree):
         if _goes_through(tree, function, name):
             continue
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Subscript) or ast.unparse(node.value) != name:
                 continue
             index = ast.unparse(node.slice)
@@ -56,7 +56,7 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     for each in functions(tree):
         if each is not function and ".publish(" in ast.unparse(each):
             continue
-        loops = (node for node in ast.walk(each) if isinstance(node, ast.For | ast.While | ast.comprehension))
+        loops = (node for node in walk(each) if isinstance(node, ast.For | ast.While | ast.comprehension))
         if any(name in ast.unparse(loop.test if isinstance(loop, ast.While) else loop.iter) for loop in loops):
             return True
         if any(name in ast.unparse(call) for call in _calls(each, WHOLE)):
@@ -72,7 +72,7 @@ def rounded(tree: ast.AST) -> Iterator[Suspect]:
             continue
         yield from _equal(call.lineno, call, expanded(call.args[0], assigned_once(function)))
     spoken = {ast.unparse(call.args[0]) for call in _calls(tree, {"len"}) if call.args}
-    for function in (each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef)):
+    for function in (each for each in walk(tree) if isinstance(each, ast.FunctionDef)):
         for target, _ in assigned(function):
             name = ast.unparse(target.value) if isinstance(target, ast.Subscript) else ""
             if isinstance(target, ast.Subscript) and name in spoken and not _goes_through(tree, function, name):
@@ -101,10 +101,10 @@ def _equal(line: int, code: ast.expr, key: ast.expr) -> Iterator[Suspect]:
 def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are new as soon as one known place is far away, instead of all."""
     for function, call, name in kept(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.For) and name in ast.unparse(node.iter):
-                tests = [each for each in ast.walk(node) if isinstance(each, ast.If) and _far(each.test)]
-                if any(call in ast.walk(each) for test in tests for each in test.body):
+                tests = [each for each in walk(node) if isinstance(each, ast.If) and _far(each.test)]
+                if any(call in walk(each) for test in tests for each in test.body):
                     yield (
                         call.lineno,
                         "same",
@@ -136,13 +136,13 @@ def _far(test: ast.expr) -> bool:
 
 def _guards(function: ast.AST, call: ast.Call) -> bool:
     """Say whether a call is itself the condition of an `if`, so that what follows is done if it holds."""
-    return any(isinstance(node, ast.If) and node.test is call for node in ast.walk(function))
+    return any(isinstance(node, ast.If) and node.test is call for node in walk(function))
 
 
 def unturned(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are kept in a file in which nothing is turned."""
     if called(tree) & TURNS or any(
-        isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult) for node in ast.walk(tree)
+        isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult) for node in walk(tree)
     ):
         return
     for _, call, _ in kept(tree):

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name, walk
 
 LEAST, MOST = 0.3, 2.5  # [m] ranges below and beyond which a node may leave out
 WIDE_ENDS, WIDE = 2, 0.7  # limits of a sector, and how far apart they are at least [rad]
@@ -29,7 +29,7 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
             stores.setdefault(ast.unparse(target), []).append((function.name, target, value))
     for function in functions(tree):
         for name, node in _smallest_so_far(function):
-            others = [each for each in stores.get(name, []) if each[2] not in list(ast.walk(node))]
+            others = [each for each in stores.get(name, []) if each[2] not in list(walk(node))]
             if name.startswith("self.") and others and all(each[0] == "__init__" for each in others):
                 yield (
                     node.lineno,
@@ -41,7 +41,7 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
 
 def _smallest_so_far(function: ast.FunctionDef) -> Iterator[tuple[str, ast.stmt]]:
     """Yield each name that keeps the smaller of itself and another value, and the statement that does it."""
-    for node in ast.walk(function):
+    for node in walk(function):
         match node:
             case ast.If(test=ast.Compare(left=left, ops=[ast.Lt() | ast.LtE()], comparators=[right])):
                 value, name = ast.unparse(left), ast.unparse(right)
@@ -63,7 +63,7 @@ def ends_at_the_first(tree: ast.Module) -> Iterator[Suspect]:
         return
     for function in functions(tree):
         found = {id(node): name for name, node in _smallest_so_far(function)}
-        for node in ast.walk(function):
+        for node in walk(function):
             if id(node) in found and isinstance(node, ast.If) and isinstance(node.body[-1], ast.Break):
                 name = found[id(node)]
                 yield (
@@ -80,9 +80,9 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
         return
     known = named_numbers(tree)
     for function in functions(tree):
-        for loop in (node for node in ast.walk(function) if isinstance(node, ast.For)):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
             kept = _range_of(loop)
-            if not kept or any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop)):
+            if not kept or any(isinstance(node, ast.Break | ast.Return) for node in walk(loop)):
                 continue
             for target, value in assigned(loop):
                 if not isinstance(target, ast.Name) or ast.unparse(value) not in kept:
@@ -90,10 +90,10 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
                 if not all(_is_wide(test, known) for test in _conditions(loop, target)):
                     continue  # one ray is chosen
                 name = target.id
-                used = {id(node) for node in ast.walk(loop)}
-                inside = any(_reads(node, name) for node in ast.walk(loop))
+                used = {id(node) for node in walk(loop)}
+                inside = any(_reads(node, name) for node in walk(loop))
                 after = [
-                    node for node in ast.walk(function) if id(node) not in used and _reads(node, name)
+                    node for node in walk(function) if id(node) not in used and _reads(node, name)
                     and node.lineno > (loop.end_lineno or 0)  # type: ignore[attr-defined]
                 ]  # fmt: skip
                 if not inside and after and name not in kept:
@@ -106,14 +106,14 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
 
 
 def _conditions(loop: ast.For, target: ast.expr) -> Iterator[ast.expr]:
-    for node in ast.walk(loop):
-        if isinstance(node, ast.If) and any(each is target for each in ast.walk(node)):
+    for node in walk(loop):
+        if isinstance(node, ast.If) and any(each is target for each in walk(node)):
             yield node.test
 
 
 def _is_wide(test: ast.expr, known: dict[str, int | float]) -> bool:
     """Say whether a condition surely holds for many rays: it asks whether they are valid, or for a wide sector."""
-    for node in ast.walk(test):
+    for node in walk(test):
         if isinstance(node, ast.Call) and last_name(node.func) not in ("isfinite", "isinf", "isnan"):
             return False
         if isinstance(node, ast.Compare):
@@ -151,7 +151,7 @@ def left_out(tree: ast.Module) -> Iterator[Suspect]:
     known = named_numbers(tree)
     parameters = {ast.unparse(name) for name, value in assigned(tree) if PARAMETER.search(ast.unparse(value))}
     for function in functions(tree):
-        names = set().union(*(_range_of(loop) for loop in ast.walk(function) if isinstance(loop, ast.For)))
+        names = set().union(*(_range_of(loop) for loop in walk(function) if isinstance(loop, ast.For)))
         names |= _compared_arrays(function)
         for value, more, limit in _choices(function):
             if ast.unparse(value) not in names:
@@ -176,7 +176,7 @@ def _compared_arrays(function: ast.FunctionDef) -> set[str]:
         text = ast.unparse(value)
         if isinstance(value, ast.Call) and last_name(value.func) in ("array", "asarray") and ".ranges" in text:
             found.add(ast.unparse(target))
-    for node in ast.walk(function):
+    for node in walk(function):
         if isinstance(node, ast.comprehension):
             found |= _range_of(ast.For(target=node.target, iter=node.iter, body=[], orelse=[]))
     return found
@@ -184,7 +184,7 @@ def _compared_arrays(function: ast.FunctionDef) -> set[str]:
 
 def _choices(function: ast.FunctionDef) -> Iterator[tuple[ast.expr, bool, ast.expr]]:
     """Yield, for each comparison that chooses values, the value, whether it must be larger, and than what."""
-    for node in ast.walk(function):
+    for node in walk(function):
         match node:
             case ast.Compare(ops=[_, _]):
                 yield from _bounds(node)

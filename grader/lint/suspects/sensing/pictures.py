@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, last_name, walk
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
@@ -28,7 +28,7 @@ def _arrays(tree: ast.AST) -> set[str]:
 
 def shapes(tree: ast.AST) -> Iterator[Suspect]:
     """Find a shape whose first number is taken for the width."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Assign):
             continue
         for target in node.targets:
@@ -61,7 +61,7 @@ def _is_shape(value: ast.expr) -> bool:
 def indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find a picture that is asked for [column, row]."""
     arrays = _arrays(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Subscript) or ast.unparse(node.value) not in arrays:
             continue
         if isinstance(node.slice, ast.Tuple) and len(node.slice.elts) >= 2:
@@ -72,7 +72,7 @@ def indices(tree: ast.AST) -> Iterator[Suspect]:
 
 def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find `columns, rows = np.nonzero(mask)`, which returns the rows first."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.Assign(targets=[ast.Tuple(elts=[first, second])], value=ast.Call(args=[mask]) as call):
                 pass
@@ -132,7 +132,7 @@ def overflows(tree: ast.AST) -> Iterator[Suspect]:
         and not re.search(r"32FC1|16UC1|depth", ast.unparse(value))
     }  # fmt: skip
     channels = {ast.unparse(target) for target, value in assigned(tree) if _is_channel(value, pictures)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult | ast.Add | ast.Sub):
             continue
         for side, other in ((node.left, node.right), (node.right, node.left)):

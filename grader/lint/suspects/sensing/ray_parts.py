@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned
+from gz_course.grader.lint.syntax import Suspect, assigned, walk
 
 RAYS = 720.0
 OTHER = {"left": "right", "right": "left"}
@@ -21,7 +21,7 @@ def other_side(tree: ast.Module) -> Iterator[Suspect]:
         if isinstance(value, ast.Call) and ast.unparse(value.func) == "len" and value.args:
             known[ast.unparse(target)] = RAYS
     for side, block in _sides(tree):
-        for node in (each for statement in block for each in ast.walk(statement)):
+        for node in (each for statement in block for each in walk(statement)):
             if not isinstance(node, ast.Subscript) or not isinstance(node.slice, ast.Slice) or node.slice.step:
                 continue
             ends = _share(node.slice.lower, known, 0.0), _share(node.slice.upper, known, 1.0)
@@ -40,7 +40,7 @@ def other_side(tree: ast.Module) -> Iterator[Suspect]:
 
 def _sides(tree: ast.AST) -> Iterator[tuple[str, list[ast.stmt]]]:
     """Yield the side of each branch that is taken on one side only, and its statements."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If) or not node.orelse:
             continue
         match node.test:
@@ -58,7 +58,7 @@ def _share(node: ast.expr | None, known: dict[str, float], absent: float) -> flo
         return absent
     if "len(" in ast.unparse(node):
         node = _Lengths().visit(ast.parse(ast.unparse(node), mode="eval")).body
-    elif not any(isinstance(each, ast.Name) and known.get(each.id) == RAYS for each in ast.walk(node)):
+    elif not any(isinstance(each, ast.Name) and known.get(each.id) == RAYS for each in walk(node)):
         return None
     value = number(node, known)
     return None if value is None or not 0 <= value <= RAYS else value / RAYS

@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, last_name, walk
 
 
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a ray, or a slice of rays, that is chosen by a number in the program."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Subscript) or not ast.unparse(node.value).endswith("ranges"):
             continue
         if _numbered(node.slice):
@@ -27,14 +27,14 @@ def _numbered(index: ast.expr) -> bool:
     if isinstance(index, ast.Tuple):
         return False
     parts = [index.lower, index.upper] if isinstance(index, ast.Slice) else [index]
-    inside = [each for part in parts if part is not None for each in ast.walk(part)]
+    inside = [each for part in parts if part is not None for each in walk(part)]
     names = any(isinstance(each, ast.Name | ast.Attribute | ast.Call) for each in inside)
     return not names and any(isinstance(each, ast.Constant) and isinstance(each.value, int) for each in inside)
 
 
 def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
     whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".ranges")}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Call) and last_name(node.func) == "min" and len(node.args) == 1:
             text = ast.unparse(node.args[0])
             if (text.endswith(".ranges") or text in whole) and not node.keywords:

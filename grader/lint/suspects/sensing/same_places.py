@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.suspects.sensing.known_places import kept
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 DISTANCE = re.compile("hypot|dist|norm|sqrt")
 FARTHEST, NEAREST = 1.5, 0.05  # [m] limits beyond which no sensible rule for the same post is
@@ -19,7 +19,7 @@ def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
     """Find points that are the same as soon as one of their coordinates is about the same."""
     if not any(kept(tree)):
         return
-    for node in ast.walk(tree):
+    for node in walk(tree):
         far = (
             isinstance(node, ast.BoolOp)
             and isinstance(node.op, ast.And)
@@ -60,7 +60,7 @@ def _off(node: ast.AST | None, far: bool) -> bool:
 def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
     """Find known places of which one coordinate only is compared."""
     names = {name for _, _, name in kept(tree)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         loops: list[Loop] = [node] if isinstance(node, ast.For) else [*getattr(node, "generators", [])]
         for loop in loops:
             if ast.unparse(loop.iter) not in names:
@@ -85,7 +85,7 @@ def _read(node: ast.AST, loop: Loop) -> Iterator[ast.AST]:
         made = None  # the list holds what is left of the known ones
     parts = node.body if isinstance(node, ast.For) else [made, *getattr(loop, "ifs", [])]
     for part in parts:
-        for each in ast.walk(part) if part is not None else ():
+        for each in walk(part) if part is not None else ():
             held = isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)
             if not held and not (isinstance(each, ast.Name) and _indexed(parts, each)):
                 yield each
@@ -97,7 +97,7 @@ def _indexed(parts: Sequence[ast.AST | None], name: ast.Name) -> bool:
         isinstance(each, ast.Subscript) and each.value is name
         for part in parts
         if part is not None
-        for each in ast.walk(part)
+        for each in walk(part)
     )
 
 
@@ -116,7 +116,7 @@ def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         if function.name not in adding:
             continue
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.Compare) or len(node.ops) != 1:
                 continue
             for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):

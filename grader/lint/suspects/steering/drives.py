@@ -19,7 +19,7 @@ from gz_course.grader.lint.suspects.steering.endless_drives import (
     set_speeds,
     set_to,
 )
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, walk
 
 STEPS = 5  # names followed at most  # names followed at most
 OTHER_TASKS = frozenset({"ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform"})
@@ -31,7 +31,7 @@ def by_place(tree: ast.AST) -> Iterator[Suspect]:
     values = set_to(tree)
     compares = [
         node
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Compare) and len(node.ops) == 1 and not any(is_none(each) for each in node.comparators)
     ]
     if any(_reads_time(side, values, STEPS) for node in compares for side in (node.left, *node.comparators)):
@@ -55,7 +55,7 @@ def by_place(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _reads_time(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bool:
-    parts = [each for each in ast.walk(node) if isinstance(each, ast.Attribute | ast.Name)]
+    parts = [each for each in walk(node) if isinstance(each, ast.Attribute | ast.Name)]
     if any((each.attr if isinstance(each, ast.Attribute) else each.id) in TIMES for each in parts):
         return True
     return steps > 0 and any(
@@ -68,12 +68,12 @@ def _reads_time(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -
 
 def _place(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> str:
     """Return the part of odometry's pose from which a value is made; empty if from none."""
-    for each in ast.walk(node):
+    for each in walk(node):
         text = ast.unparse(each) if isinstance(each, ast.Attribute) else ""
         if text.count(".") > 1 and (found := next((part for part in PLACES if part in text), "")):
             return text[text.index(found) :]
     if steps > 0:
-        for each in ast.walk(node):
+        for each in walk(node):
             if isinstance(each, ast.Attribute | ast.Name):
                 for value in values.get(ast.unparse(each), []):
                     if value is not node and (found := _place(value, values, steps - 1)):
@@ -86,7 +86,7 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
     init = in_init(tree)
     starts = {
         name
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.If | ast.IfExp)
         for test in _parts(node.test)
         if (name := asked_for_none(test))
@@ -100,7 +100,7 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
                 f"{name} = None makes the next call take itself for the first one, so a new drive begins: leave "
                 f"{name} as it is when you stop",
             )
-    for block in (node for node in ast.walk(tree) if isinstance(node, ast.If)):
+    for block in (node for node in walk(tree) if isinstance(node, ast.If)):
         for statement in block.body:
             for target, value in assigned(statement):
                 name = ast.unparse(target)
@@ -124,7 +124,7 @@ def _late(test: ast.expr, start: str, tree: ast.AST) -> bool:
     for part in _parts(test):
         if isinstance(part, ast.Compare) and isinstance(part.ops[0], ast.Gt | ast.GtE):
             sides = [part.left, *values.get(ast.unparse(part.left), [])]
-            for node in (each for side in sides for each in ast.walk(side)):
+            for node in (each for side in sides for each in walk(side)):
                 if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and ast.unparse(node.right) == start:
                     return True
     return False
@@ -155,7 +155,7 @@ def _returns(block: ast.If) -> bool:
 def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time that is compared with == and a number of seconds: it holds for a moment, or for a second."""
     values = set_to(tree)
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
+    for node in (each for each in walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
         sides = (node.left, node.comparators[0])
         number = next((each.value for each in sides if isinstance(each, ast.Constant)), None)
         late = isinstance(node.ops[0], ast.Eq) and isinstance(number, int | float) and number >= 1

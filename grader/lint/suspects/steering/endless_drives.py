@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.clocks.time_units import unit_of
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 LONG = 8.0  # [s] more is no drive of a run
 TIMES = frozenset({"now", "get_clock", "stamp", "time", "monotonic", "perf_counter", "sleep", "nanoseconds", "clock"})
@@ -23,7 +23,7 @@ def set_to(tree: ast.AST) -> dict[str, list[ast.expr]]:
 
 def in_init(tree: ast.AST) -> set[int]:
     """Return the nodes within the `__init__` of classes, by their identity."""
-    return {id(node) for each in functions(tree) if each.name == "__init__" for node in ast.walk(each)}
+    return {id(node) for each in functions(tree) if each.name == "__init__" for node in walk(each)}
 
 
 def is_none(node: ast.AST) -> bool:
@@ -60,8 +60,8 @@ def publish_calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
 
 def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
     """Find a file that neither reads a clock, nor compares anything, nor cancels, nor has a second timer."""
-    names = {last_name(node) for node in ast.walk(tree)}
-    asks = any(isinstance(node, ast.Compare) for function in functions(tree) for node in ast.walk(function))
+    names = {last_name(node) for node in walk(tree)}
+    asks = any(isinstance(node, ast.Compare) for function in functions(tree) for node in walk(function))
     timers = [call for call, name in calls(tree) if name == "create_timer"]
     if names & TIMES or asks or "cancel" in names or len(timers) != 1:
         return
@@ -77,7 +77,7 @@ def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
 def computed_once(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time that is computed only where the start is set, and compared in every call."""
     init, values = in_init(tree), set_to(tree)
-    for block in (node for node in ast.walk(tree) if isinstance(node, ast.If) and asked_for_none(node.test)):
+    for block in (node for node in walk(tree) if isinstance(node, ast.If) and asked_for_none(node.test)):
         start = asked_for_none(block.test)
         inside = [pair for statement in block.body for pair in assigned(statement)]
         if start not in {ast.unparse(target) for target, _ in inside}:
@@ -95,13 +95,13 @@ def computed_once(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _has_difference(value: ast.expr) -> bool:
-    return any(isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) for node in ast.walk(value))
+    return any(isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) for node in walk(value))
 
 
 def _compared(tree: ast.AST, name: str) -> bool:
     return any(
         isinstance(node, ast.Compare) and any(ast.unparse(each) == name for each in (node.left, *node.comparators))
-        for node in ast.walk(tree)
+        for node in walk(tree)
     )
 
 
@@ -116,7 +116,7 @@ def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
     }
     for function in (each for each in functions(tree) if each.name != "__init__"):
         own = {ast.unparse(target) for target, _ in assigned(function)} | {each.arg for each in function.args.args}
-        for block in (node for node in ast.walk(function) if isinstance(node, ast.If)):
+        for block in (node for node in walk(function) if isinstance(node, ast.If)):
             for target, value in (pair for statement in block.body for pair in set_speeds(statement)):
                 message = ast.unparse(target).removesuffix(".linear.x")
                 once = message in sent - own and message.removeprefix("self.") in made
@@ -143,18 +143,18 @@ def refreshed(tree: ast.AST) -> Iterator[Suspect]:
     """Find a start that another callback sets anew each time it is called."""
     starts = {
         ast.unparse(part.right)
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.BinOp | ast.Compare)
-        for part in ast.walk(node)
+        for part in walk(node)
         if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Sub) and isinstance(part.right, ast.Attribute)
     }
     values = set_to(tree)
     for function in (each for each in functions(tree) if each.name != "__init__"):
-        own = {ast.unparse(part.right) for part in ast.walk(function) if isinstance(part, ast.BinOp)}
+        own = {ast.unparse(part.right) for part in walk(function) if isinstance(part, ast.BinOp)}
         for statement in function.body:
             for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
                 name = ast.unparse(target)
-                if name in starts - own and any(last_name(each) in TIMES for each in ast.walk(value)) and values[name]:
+                if name in starts - own and any(last_name(each) in TIMES for each in walk(value)) and values[name]:
                     yield (
                         statement.lineno,
                         "endless",
@@ -188,7 +188,7 @@ def long_times(tree: ast.AST) -> Iterator[Suspect]:
         for call, name in calls(tree)
         if name == "declare_parameter" and len(call.args) > 1 and (value := number(call.args[1], numbers))
     }
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
+    for node in (each for each in walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
             given = other
             while isinstance(given, ast.Name | ast.Attribute) and len(values.get(ast.unparse(given), [])) == 1:
@@ -206,10 +206,10 @@ def long_times(tree: ast.AST) -> Iterator[Suspect]:
 
 def not_read(tree: ast.AST) -> Iterator[Suspect]:
     """Find an attribute that a method sets to end something, and that nobody reads, or `__init__` alone."""
-    for owner in (node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         init = in_init(owner)
         read: dict[str, list[ast.Attribute]] = {}
-        for node in ast.walk(owner):
+        for node in walk(owner):
             if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
                 read.setdefault(ast.unparse(node), []).append(node)
         for target, value in assigned(owner):
@@ -253,7 +253,7 @@ def _varies(value: ast.expr) -> bool:
 
 
 def _leaves(block: ast.If) -> bool:
-    return any(isinstance(node, ast.Return | ast.Raise) for node in ast.walk(block)) or "cancel" in called(block)
+    return any(isinstance(node, ast.Return | ast.Raise) for node in walk(block)) or "cancel" in called(block)
 
 
 def _may_stop(block: ast.If) -> bool:

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name, walk
 
 MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"})
 ERROR = re.compile(
@@ -18,10 +18,10 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 def _lists_of_ranges(function: Function) -> set[str]:
     """Return the names of lists that hold ranges of a scan and nothing else."""
-    loops = [node for node in ast.walk(function) if isinstance(node, ast.For | ast.comprehension)]
+    loops = [node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)]
     single = {name for loop in loops if (name := _range_of(loop))}
     names = {ast.unparse(target) for target, value in assigned(function) if _is_list_of_ranges(value)}
-    for node in ast.walk(function):
+    for node in walk(function):
         match node:
             case ast.Call(func=ast.Attribute(value=kept, attr="append"), args=[ast.Name(id=name)]) if name in single:
                 names.add(ast.unparse(kept))
@@ -58,7 +58,7 @@ def means(tree: ast.AST) -> Iterator[Suspect]:
         return
     for function in functions(tree):
         lists = _lists_of_ranges(function)
-        for node in ast.walk(function):
+        for node in walk(function):
             of = ""
             if isinstance(node, ast.Call) and last_name(node.func) in MEANS and node.args:
                 of = ast.unparse(node.args[0])
@@ -87,7 +87,7 @@ def added_commands(tree: ast.AST) -> Iterator[Suspect]:
         values = {
             ast.unparse(target): value for target, value in assigned(function) if not isinstance(target, ast.Tuple)
         }
-        for node in ast.walk(function):
+        for node in walk(function):
             if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add | ast.Sub):
                 old, new = ast.unparse(node.target), node.value
             elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
@@ -109,7 +109,7 @@ def added_commands(tree: ast.AST) -> Iterator[Suspect]:
 
 def _depends(node: ast.AST, name: str, values: dict[str, ast.expr], steps: int) -> bool:
     """Return whether an expression reads a name, also by way of other names."""
-    texts = {ast.unparse(each) for each in ast.walk(node) if isinstance(each, ast.Name | ast.Attribute)}
+    texts = {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)}
     if name in texts:
         return True
     return steps > 0 and any(_depends(values[text], name, values, steps - 1) for text in texts if text in values)
@@ -138,8 +138,8 @@ def _stored(function: Function, node: ast.AST, old: str, values: dict[str, ast.e
     """Return whether a sum ends up where its first term was read."""
     for target, value in assigned(function):
         if ast.unparse(target) == old:
-            inside = any(each is node for each in ast.walk(value))
-            names = {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Name)}
+            inside = any(each is node for each in walk(value))
+            names = {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Name)}
             if inside or any(values.get(name) is node for name in names):
                 return True
     return False
@@ -154,7 +154,7 @@ def integrals(tree: ast.AST) -> Iterator[Suspect]:
         for target, value in assigned(tree)
         if isinstance(value, ast.Call | ast.IfExp) and ast.unparse(target) in ast.unparse(value)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         name, value = "", None
         if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
             name, value = ast.unparse(node.target), node.value

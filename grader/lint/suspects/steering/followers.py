@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned
+from gz_course.grader.lint.syntax import Suspect, assigned, walk
 
 KEPT = re.compile(r"gap|desired|wanted|1\.2\b|keep|spacing|target_dist", re.IGNORECASE)
 MEASURED = re.compile(r"dist|hypot|range|length|separation", re.IGNORECASE)
@@ -19,9 +19,9 @@ def _speeds(tree: ast.AST) -> list[tuple[ast.expr, ast.expr]]:
 
 def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
     """Find the gap minus the distance in a file that takes no speed with a minus sign."""
-    if any(isinstance(node, ast.USub) for _, value in _speeds(tree) for node in ast.walk(value)):
+    if any(isinstance(node, ast.USub) for _, value in _speeds(tree) for node in walk(value)):
         return
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
             continue
         left, right = ast.unparse(node.left), ast.unparse(node.right)
@@ -36,7 +36,7 @@ def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
 
 def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
     """Find a condition that lets a robot drive only where the distance, or the error, is small."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
             continue
         test, left, right = node.test, ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
@@ -44,7 +44,7 @@ def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
         more = isinstance(test.ops[0], ast.Gt | ast.GtE) and LESS.search(right) and not LESS.search(left)
         if not (less or more) or not _drives(node.body) or _drives(node.orelse):
             continue
-        others = [value for _, value in _speeds(tree) if not any(value is each for each in ast.walk(node))]
+        others = [value for _, value in _speeds(tree) if not any(value is each for each in walk(node))]
         if all(_is_zero(value) for value in others):
             yield (
                 node.lineno,
@@ -63,7 +63,7 @@ def _is_zero(value: ast.expr) -> bool:
 
 def added_positions(tree: ast.AST) -> Iterator[Suspect]:
     """Find a position of an odometry that is added to a sum with each message."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and ".position." in ast.unparse(node.value):
             name = ast.unparse(node.target)
             if name.startswith("self."):
@@ -78,8 +78,8 @@ def added_positions(tree: ast.AST) -> Iterator[Suspect]:
 def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
     """Find a speed that int() or // makes a whole number."""
     for _, value in _speeds(tree):
-        whole = [node for node in ast.walk(value) if isinstance(node, ast.Call) and ast.unparse(node.func) == "int"]
-        if whole or any(isinstance(node, ast.FloorDiv) for node in ast.walk(value)):
+        whole = [node for node in walk(value) if isinstance(node, ast.Call) and ast.unparse(node.func) == "int"]
+        if whole or any(isinstance(node, ast.FloorDiv) for node in walk(value)):
             yield (
                 value.lineno,
                 "whole_speed",

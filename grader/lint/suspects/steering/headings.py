@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name, walk
 
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
 MOST = 3.2  # [rad] a larger limit of an angle was meant in degrees
@@ -43,7 +43,7 @@ def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
     """Find headings that are made of a quaternion in a wrong way."""
     names = _quaternions(tree)
     for target, value in assigned(tree):
-        parts = {part for node in ast.walk(value) if (part := _part(node, names))}
+        parts = {part for node in walk(value) if (part := _part(node, names))}
         if not parts or not HEADING.search(ast.unparse(target)):
             continue
         words = _wrong_heading(value, parts, names)
@@ -55,11 +55,11 @@ def _signed(tree: ast.AST, names: set[str]) -> bool:
     """Say whether the sign of z is asked for, which tells left from right."""
     asking = (
         node
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Compare)
         or (isinstance(node, ast.Call) and last_name(node.func) in ("copysign", "sign"))
     )
-    return any(_part(each, names) == "z" for node in asking for each in ast.walk(node))
+    return any(_part(each, names) == "z" for node in asking for each in walk(node))
 
 
 def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
@@ -84,13 +84,13 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
 def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call):
             continue
         name, given = last_name(node.func), [*node.args]
         text = ast.unparse(node)[:60]
         if name in SINES and given and not called(given[0]) & TO_RADIANS and not _to_radians(given[0]):
-            parts = {ast.unparse(each) for each in ast.walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
+            parts = {ast.unparse(each) for each in walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
                 yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
         if name in TO_RADIANS and given and OF_SCANS.search(ast.unparse(given[0])):
@@ -131,7 +131,7 @@ def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
 
 def sine_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find atan2 of x and y."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Call) or last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
             continue
         first, second = (ast.unparse(each) for each in node.args)
@@ -151,7 +151,7 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
         for target, value in assigned(tree)
         if called(value) & {"atan2", "arctan2"} and isinstance(target, ast.Name)
     }
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
             continue
         direction = called(node.left) & {"atan2", "arctan2"} or ast.unparse(node.left) in aimed
@@ -168,7 +168,7 @@ def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
     values = list(assigned(tree))
     in_degrees = {ast.unparse(target) for target, value in values if _in_degrees(value)}
     in_radians = {ast.unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub | ast.Add):
             continue
         for one, other in ((node.left, node.right), (node.right, node.left)):
@@ -192,8 +192,8 @@ def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading of a quaternion that a function returns in degrees, in a file that makes no radians of it."""
     if called(tree) & TO_RADIANS or _to_radians(tree):
         return
-    aims = any(called(n) & {"atan2", "arctan2"} and not _of_quaternion(n) for n in ast.walk(tree) if _is_call(n))
-    for node in ast.walk(tree):
+    aims = any(called(n) & {"atan2", "arctan2"} and not _of_quaternion(n) for n in walk(tree) if _is_call(n))
+    for node in walk(tree):
         value = node.value if isinstance(node, ast.Return) else None
         if aims and value is not None and _in_degrees(value) and _of_quaternion(value):
             yield (
@@ -209,7 +209,7 @@ def _is_call(node: ast.AST) -> bool:
 
 
 def _of_quaternion(node: ast.AST) -> bool:
-    parts = {each.attr for each in ast.walk(node) if isinstance(each, ast.Attribute)}
+    parts = {each.attr for each in walk(node) if isinstance(each, ast.Attribute)}
     return {"z", "w"} <= parts
 
 
@@ -217,11 +217,11 @@ def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in radians that is compared with a number above pi, in a file that makes no degrees."""
     if called(tree) & (TO_DEGREES | TO_RADIANS) or not called(tree) & {"atan2", "arctan2"}:
         return
-    numbers = [each.value for each in ast.walk(tree) if isinstance(each, ast.Constant)]
+    numbers = [each.value for each in walk(tree) if isinstance(each, ast.Constant)]
     if any(each in (180, 360, 57.3, 57.29578) for each in numbers if isinstance(each, int | float)):
         return
     known = named_numbers(tree)
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.Compare) or len(node.ops) != 1:
             continue
         left = node.left

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, walk
 
 RATE = re.compile(r"\btwist\.(?:twist\.)?angular\.z")
 REST = "the pose of /odom is exact here: take it as it comes"
@@ -19,8 +19,8 @@ def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
         return
     for function in functions(tree):
         rates = {ast.unparse(one) for one, value in assigned(function) if RATE.search(ast.unparse(value))}
-        for node in (each for each in ast.walk(function) if isinstance(each, ast.AugAssign)):
-            parts = {ast.unparse(each) for each in ast.walk(node.value)}
+        for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
+            parts = {ast.unparse(each) for each in walk(node.value)}
             if isinstance(node.op, ast.Add) and (RATE.search(ast.unparse(node.value)) or parts & rates):
                 yield (
                     node.lineno,
@@ -38,7 +38,7 @@ def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
         if ".pose.pose" not in ast.unparse(function):
             continue
         for target, value in assigned(function):
-            for node in ast.walk(value):
+            for node in walk(value):
                 match node:
                     case ast.BinOp(
                         left=ast.BinOp(left=one, op=ast.Mult(), right=_),
@@ -61,12 +61,12 @@ def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _used(value: ast.expr) -> set[str]:
-    return {ast.unparse(each) for each in ast.walk(value) if isinstance(each, ast.Attribute | ast.Name)}
+    return {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Attribute | ast.Name)}
 
 
 def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
     """Find a difference of angles that is reduced by half a turn: `% pi`, `remainder(x, pi)`."""
-    for node in ast.walk(tree):
+    for node in walk(tree):
         match node:
             case ast.BinOp(op=ast.Mod(), right=divisor):
                 pass

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.nodes.scan_callbacks import callbacks
-from gz_course.grader.lint.syntax import Suspect, called, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, called, calls, functions, last_name, walk
 
 SLEEPS = frozenset({"sleep", "sleep_for", "sleep_until"})
 CLOCKS = frozenset({"now", "time", "monotonic", "perf_counter", "time_ns", "monotonic_ns"})
@@ -30,7 +30,7 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
                 "and no odometry, and no timer fires, so it continues with old values; publish a command and return, "
                 "and look again in the next call",
             )
-        for loop in (each for each in ast.walk(function) if isinstance(each, ast.While)):
+        for loop in (each for each in walk(function) if isinstance(each, ast.While)):
             if called(loop.test) & CLOCKS and not called(loop) & (SLEEPS | {"spin_once"}):
                 yield (
                     loop.lineno,

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 MANY = 8  # values of a mean
 LITTLE = 0.15  # the weight of a new value in a moving average
@@ -43,7 +43,7 @@ def _sizes(tree: ast.Module, kept: set[str]) -> dict[str, float]:
         if name in kept and isinstance(value, ast.Call) and last_name(value.func) == "deque":
             given = [each.value for each in value.keywords if each.arg == "maxlen"] + value.args[1:2]
             found[name] = number(given[0], known) if given else None
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.Compare) and re.match(r"len\((.+)\)$", ast.unparse(node.left)):
             name = ast.unparse(node.left)[4:-1]
             if name in kept:
@@ -57,7 +57,7 @@ def moving_averages(tree: ast.Module) -> Iterator[Suspect]:
         return
     known = named_numbers(tree)
     for function in functions(tree):
-        for node in ast.walk(function):
+        for node in walk(function):
             share = None
             match node:
                 case ast.AugAssign(target=target, op=ast.Add(), value=ast.BinOp(op=ast.Mult()) as product):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, last_name, walk
 
 LIMITING = ("min", "minimum", "clip", "clamp", "limited", "limit")
 
@@ -19,9 +19,7 @@ def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
         for target, value in assigned(tree)
         if isinstance(target, ast.Name | ast.Attribute) and _is_parameter(value)
     }
-    inside = {
-        id(node) for call, name in calls(tree) if name in LIMITING for given in call.args for node in ast.walk(given)
-    }
+    inside = {id(node) for call, name in calls(tree) if name in LIMITING for given in call.args for node in walk(given)}
     for call, name in calls(tree):
         if name not in ("max", "maximum") or len(call.args) != 2 or id(call) in inside:
             continue

@@ -18,7 +18,7 @@ from gz_course.grader.lint.ros_parameters import (
     owners,
     reads,
 )
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, last_name, walk
 
 TYPES = {float: "DOUBLE", int: "INTEGER", str: "STRING", bool: "BOOL"}
 TYPE = frozenset({*TYPES.values(), "DOUBLE_ARRAY", "INTEGER_ARRAY", "STRING_ARRAY", "BYTE_ARRAY"})
@@ -71,7 +71,7 @@ def _kept(tree: ast.Module, name: str, inside: dict[int, str], start: set[str]) 
         stores.setdefault(ast.unparse(target), []).append((target, value))
     loads = {
         ast.unparse(node): inside[id(node)]
-        for node in ast.walk(tree)
+        for node in walk(tree)
         if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and inside[id(node)] not in start
     }
     for kept, given in stores.items():
@@ -104,7 +104,7 @@ def _sets_back(tree: ast.AST, name: str, inside: dict[int, str], start: set[str]
     for call, what in calls(tree):
         if what not in ("set_parameters", "set_parameters_atomically") or inside[id(call)] in start:
             continue
-        if any(isinstance(each, ast.Constant) and each.value == name for each in ast.walk(call)):
+        if any(isinstance(each, ast.Constant) and each.value == name for each in walk(call)):
             return call.lineno, (
                 f"{ast.unparse(call)[:70]} sets {name} back in each {inside[id(call)]}(): whatever somebody else has "
                 "set is lost"
@@ -118,23 +118,23 @@ def _not_heard(
     """Find a callback for changes that passes over a parameter."""
     single = members(function)
     asked: set[str] = set()
-    for node in (each for each in ast.walk(function) if isinstance(each, ast.Compare)):
+    for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
         if last_name(node.left) == "name":
-            asked |= {str(each.value) for each in ast.walk(node.comparators[0]) if isinstance(each, ast.Constant)}
+            asked |= {str(each.value) for each in walk(node.comparators[0]) if isinstance(each, ast.Constant)}
     code = ast.unparse(function)
     if asked and name not in asked and name not in code and "else" not in code and single:
         shown = ", ".join(sorted(asked))
         return function.lineno, f"{function.name}() asks for {shown} alone, so a new {name} is passed over"
-    for test in (each for each in ast.walk(function) if isinstance(each, ast.If)):
-        if any(isinstance(each, ast.Constant) and each.value == name for each in ast.walk(test.test)):
+    for test in (each for each in walk(function) if isinstance(each, ast.If)):
+        if any(isinstance(each, ast.Constant) and each.value == name for each in walk(test.test)):
             for target, value in assigned(ast.Module(test.body, [])):
                 kept = ast.unparse(target)
                 if kept.startswith("self.") and ast.unparse(value).endswith(".value") and not _is_read(tree, kept):
                     return value.lineno, f"{kept} keeps the new value of {name}, and nothing reads {kept} later"
     kind = TYPES.get(type(default.value)) if isinstance(default, ast.Constant) else None
-    for test in (each for each in ast.walk(function) if isinstance(each, ast.If)):
-        about = {str(each.value) for each in ast.walk(test.test) if isinstance(each, ast.Constant)}
-        types = {last_name(each) for each in ast.walk(test.test)} & TYPE
+    for test in (each for each in walk(function) if isinstance(each, ast.If)):
+        about = {str(each.value) for each in walk(test.test) if isinstance(each, ast.Constant)}
+        types = {last_name(each) for each in walk(test.test)} & TYPE
         if kind and name in about and types and kind not in types:
             return test.lineno, (
                 f"{ast.unparse(test.test)[:80]} asks for the type {', '.join(sorted(types))}, and {name} is declared "
@@ -148,7 +148,7 @@ def _is_read(tree: ast.AST, kept: str) -> bool:
     attribute = kept.rpartition(".")[2]
     return any(
         isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr == attribute
-        for node in ast.walk(tree)
+        for node in walk(tree)
     )
 
 
@@ -158,11 +158,11 @@ def _only_while_none(tree: ast.AST, later: list[ast.Call]) -> tuple[int, str] | 
         return None
     found: tuple[int, str] | None = None
     guarded: set[int] = set()
-    for test in (each for each in ast.walk(tree) if isinstance(each, ast.If)):
+    for test in (each for each in walk(tree) if isinstance(each, ast.If)):
         asked = _guard(test.test)
         if not asked:
             continue
-        body = [each for statement in test.body for each in ast.walk(statement)]
+        body = [each for statement in test.body for each in walk(statement)]
         sets = any(
             isinstance(each, ast.Assign)
             and asked in [ast.unparse(one) for target in each.targets for one in _parts(target)]

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called
+from gz_course.grader.lint.syntax import Suspect, assigned, called, walk
 
 NEAREST = re.compile(r"\b(?:min|nanmin|amin)\((?:\w+\.)*ranges\)|\.ranges\)?\.min\(\)|\bmin\(\w+(?:\.\w+)*\.ranges\)")
 
@@ -14,9 +14,9 @@ NEAREST = re.compile(r"\b(?:min|nanmin|amin)\((?:\w+\.)*ranges\)|\.ranges\)?\.mi
 def stops_for_all_sides(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if min(scan.ranges) < 0.5: command.linear.x = 0.0`, where the test is true for what is behind, too."""
     nearest = {ast.unparse(one) for one, value in assigned(tree) if NEAREST.search(ast.unparse(value))}
-    for node in (each for each in ast.walk(tree) if isinstance(each, ast.If)):
+    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
         test = ast.unparse(node.test)
-        parts = {ast.unparse(each) for each in ast.walk(node.test)}
+        parts = {ast.unparse(each) for each in walk(node.test)}
         if " < " not in test or not (NEAREST.search(test) or parts & nearest):
             continue
         body = ast.Module(body=node.body, type_ignores=[])

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.ros_parameters import reads
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 TO_DEGREES, TO_RADIANS = frozenset({"degrees", "rad2deg"}), frozenset({"radians", "deg2rad"})
 ENDS = TO_RADIANS | {"cos", "sin", "tan", "len", "range", "print", "isfinite"}  # what degrees do not get through
@@ -62,7 +62,7 @@ def _columns(
             for place, item in enumerate(items):
                 if line := _degrees(item, names, known):
                     columns.setdefault(ast.unparse(call.func.value), {})[place] = line
-    for loop in (node for node in ast.walk(function) if isinstance(node, ast.For | ast.comprehension)):
+    for loop in (node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)):
         items = loop.target.elts if isinstance(loop.target, ast.Tuple) else [loop.target]
         for place, line in columns.get(ast.unparse(loop.iter), {}).items():
             if place < len(items):
@@ -109,13 +109,13 @@ def centimetres(tree: ast.Module) -> Iterator[Suspect]:
     if not _steers(tree):
         return
     known, asked = named_numbers(tree), {id(call) for call, _ in reads(tree)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult | ast.Div):
             continue
         factor, other = number(node.right, known), node.left
         if factor is None and isinstance(node.op, ast.Mult):
             factor, other = number(node.left, known), node.right
-        if factor in HUNDREDS and any(id(each) in asked for each in ast.walk(other)):
+        if factor in HUNDREDS and any(id(each) in asked for each in walk(other)):
             yield (
                 node.lineno,
                 "unit",
@@ -129,7 +129,7 @@ def gains_behind_limits(tree: ast.Module) -> Iterator[Suspect]:
     for function in functions(tree):
         limited = {ast.unparse(target) for target, value in assigned(function) if _is_limited(value, known)}
         values = {ast.unparse(target): value for target, value in assigned(function)}
-        for node in ast.walk(function):
+        for node in walk(function):
             if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
                 continue
             for one, other in ((node.left, node.right), (node.right, node.left)):
@@ -153,7 +153,7 @@ def _is_limited(node: ast.expr, known: dict[str, Number]) -> bool:
         return _is_limited(node.args[0], known)
     if last_name(node.func) not in ("clip", "min", "max", "clamp", "limited", "limit", "saturate"):
         return False
-    numbers = [number(each, known) for each in ast.walk(node) if isinstance(each, ast.expr)]
+    numbers = [number(each, known) for each in walk(node) if isinstance(each, ast.expr)]
     return LIMIT in numbers
 
 
@@ -161,13 +161,13 @@ def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.ex
     """Return whether an expression reaches angular.z with nothing but signs on its way."""
     for target, value in assigned(function):
         if ast.unparse(target).endswith("angular.z"):
-            parts = list(ast.walk(value))
+            parts = list(walk(value))
             names = [ast.unparse(each) for each in parts if isinstance(each, ast.Name | ast.Attribute)]
-            parts += [each for name in names if name in values for each in ast.walk(values[name])]
+            parts += [each for name in names if name in values for each in walk(values[name])]
             limits = any(
                 isinstance(each, ast.Call)
                 and last_name(each.func) in ("clip", "min", "max")
-                and any(inner is node for inner in ast.walk(each))
+                and any(inner is node for inner in walk(each))
                 for each in parts
             )
             if any(each is node for each in parts) and not limits:
@@ -182,7 +182,7 @@ def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
     for function in functions(tree):
         single = {
             ast.unparse(each)
-            for loop in ast.walk(function)
+            for loop in walk(function)
             if isinstance(loop, ast.For | ast.comprehension) and ".ranges" in ast.unparse(loop.iter)
             for each in ([loop.target] if not isinstance(loop.target, ast.Tuple) else loop.target.elts[1:])
         } | {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
@@ -213,7 +213,7 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
         return
     for function in functions(tree):
         single = {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
-        for loop in (each for each in ast.walk(function) if isinstance(each, ast.For | ast.comprehension)):
+        for loop in (each for each in walk(function) if isinstance(each, ast.For | ast.comprehension)):
             last = loop.target.elts[-1] if isinstance(loop.target, ast.Tuple) else loop.target
             if ".ranges" in ast.unparse(loop.iter) and "range(" not in ast.unparse(loop.iter):
                 single.add(ast.unparse(last))
@@ -234,7 +234,7 @@ def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
     text = ast.unparse(tree)
     if re.search(r"> (?:0(?:\.\d*)?|\w+\.range_min|self\.range_min)\b", text):
         return  # a range of 0 is left out again
-    for node in ast.walk(tree):
+    for node in walk(tree):
         code, zero = ast.unparse(node) if isinstance(node, ast.expr | ast.Assign) else "", False
         match node:
             case ast.Call() if last_name(node.func) == "nan_to_num":

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, functions
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, walk
 
 
 def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
@@ -38,7 +38,7 @@ def _is(value: ast.expr, wanted: bool) -> bool:
 def _stop(tree: ast.AST, name: str) -> int:
     """Return the line in which a flag that is set lets a function return, or sets a speed of zero; 0 if none does."""
     driving = (f for f in functions(tree) if any(ast.unparse(t).endswith("linear.x") for t, _ in assigned(f)))
-    for node in (each for function in driving for each in ast.walk(function)):
+    for node in (each for function in driving for each in walk(function)):
         if isinstance(node, ast.IfExp) and ast.unparse(node.test) == name and _zero(node.body):
             return node.lineno
         if not isinstance(node, ast.If) or not _asks(node.test, name):

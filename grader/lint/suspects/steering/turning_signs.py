@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.steering.headings import HEADING
-from gz_course.grader.lint.syntax import Suspect, assigned, called
+from gz_course.grader.lint.syntax import Suspect, assigned, called, walk
 
 AIMED = frozenset({"atan2", "arctan2"})
 
@@ -16,7 +16,7 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
     pairs = list(assigned(tree))
     aimed = {ast.unparse(target) for target, value in pairs if called(value) & AIMED}
     errors = {ast.unparse(target) for target, value in pairs if _goal_minus_heading(value, aimed)}
-    for node in ast.walk(tree):
+    for node in walk(tree):
         if isinstance(node, ast.If):
             sides = [_turn(each) for each in node.body]
         elif isinstance(node, ast.Assign) and isinstance(node.value, ast.IfExp) and _turns(node.targets[0]):
@@ -46,7 +46,7 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _goal_minus_heading(value: ast.expr, aimed: set[str]) -> bool:
-    for node in ast.walk(value):
+    for node in walk(value):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
             left, right = ast.unparse(node.left), ast.unparse(node.right)
             if (called(node.left) & AIMED or left in aimed) and HEADING.search(right) and right not in aimed:
