@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Places, calls, places_in, walk
+from gz_course.grader.lint.syntax import Places, calls, left_early, places_in, walk
 
 MOST = 4  # delays of a file; with more, nobody knows which of them count
 SLEEPS = frozenset({"sleep"})
@@ -57,5 +57,5 @@ def _rounds(loop: ast.For, numbers: Mapping[str, Number]) -> int:
     """Return how often a `for ... in range(N)` runs; 0 for other loops, and for one that may be left."""
     counted = loop.iter if isinstance(loop.iter, ast.Call) and ast.unparse(loop.iter.func) == "range" else None
     times = number(counted.args[0], numbers) if counted is not None and len(counted.args) == 1 else None
-    left = any(isinstance(each, ast.Break | ast.Return) for each in walk(loop))
+    left = left_early(loop)
     return int(times) if times and not left else 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from typing import Any
 
 Place = tuple[int, str]  # line, and the words of a sentence
@@ -13,6 +14,7 @@ Places = list[dict[str, Any]]
 # each of those around it. The longest solution has a third of that.
 MOST_WORK = 30_000
 WALKED = "_walked"
+GIVEN_UP = (SyntaxError, ValueError, RecursionError, MemoryError)
 
 
 def walk(node: ast.AST) -> tuple[ast.AST, ...]:
@@ -58,6 +60,23 @@ def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
                 yield target, node.value
 
 
+def set_to(tree: ast.AST) -> dict[str, list[ast.expr]]:
+    """Return what each name and attribute of a file is set to."""
+    found: dict[str, list[ast.expr]] = {}
+    for target, value in assigned(tree):
+        found.setdefault(ast.unparse(target), []).append(value)
+    return found
+
+
+def is_none(node: ast.AST) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def left_early(loop: ast.AST) -> bool:
+    """Return whether a loop has a `break` or a `return` in it."""
+    return any(isinstance(each, ast.Break | ast.Return) for each in walk(loop))
+
+
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
     """Yield each assignment to a single target, after the target."""
     for node in walk(tree):
@@ -71,10 +90,23 @@ def places_in(content: bytes, look: Callable[[ast.Module], Places]) -> Places:
     A file that is far longer than any solution has none: looks compare its statements with each other.
     """
     try:
-        tree = ast.parse(content)
+        tree = _parsed(content)
         return look(tree) if _work(tree) <= MOST_WORK else []
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+    except GIVEN_UP:
         return []
+
+
+def parsed(content: bytes) -> ast.Module:
+    """Return the syntax tree of a file; an empty one if Python gives up parsing it."""
+    try:
+        return _parsed(content)
+    except GIVEN_UP:
+        return ast.Module(body=[], type_ignores=[])
+
+
+@lru_cache(maxsize=8)  # a grading looks into the same few files for a dozen kinds of places
+def _parsed(content: bytes) -> ast.Module:
+    return ast.parse(content)
 
 
 def _work(tree: ast.AST) -> int:

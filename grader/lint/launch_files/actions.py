@@ -9,7 +9,7 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import called, last_name, walk
+from gz_course.grader.lint.syntax import called, last_name, parsed, walk
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
 MAIN = "generate_launch_description"
@@ -137,10 +137,7 @@ def _own_node(parts: Iterable[ast.AST], nodes: Mapping[str, bytes]) -> str:
     """Return the name of the student's program that an action starts, if it spins and does not end by itself."""
     names = {text(each).rpartition("/")[2] for part in parts for each in walk(part)} & nodes.keys()
     for name in sorted(names):
-        try:
-            tree = ast.parse(nodes[name])
-        except (SyntaxError, ValueError, RecursionError):
-            continue
+        tree = parsed(nodes[name])
         own = [each for each in walk(tree) if isinstance(each, ast.ClassDef)]
         inside = {last_name(each) for part in own for each in walk(part)}
         if "spin" in called(tree) and not inside & ENDS:

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import called, calls, last_name, walk
+from gz_course.grader.lint.syntax import called, calls, last_name, parsed, walk
 
 PUSHES = ("PushRosNamespace", "PushROSNamespace")
 CREATES = ("create_subscription", "create_publisher", "create_client", "create_service")
@@ -76,10 +76,7 @@ def slashes_in_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[P
 
 def _topics(content: bytes) -> set[str]:
     """Return the names of topics and services that a program gives as texts."""
-    try:
-        tree = ast.parse(content)
-    except (SyntaxError, ValueError, RecursionError):
-        return set()
+    tree = parsed(content)
     given = [argument(call, "topic", 1) for call, name in calls(tree) if name in CREATES]
     return {text(each) for each in given} - {""}
 

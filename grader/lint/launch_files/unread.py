@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.lint.syntax import calls, last_name, walk
+from gz_course.grader.lint.syntax import calls, last_name, parsed, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 IN_A_TEXT = re.compile(r"\$\(var (\w+)\)")
@@ -102,10 +102,7 @@ def _near_sim_time(name: str) -> bool:
 
 def declared_parameters(content: bytes) -> set[str]:
     """Return the parameters that a program declares; none if that is not known."""
-    try:
-        tree = ast.parse(content)
-    except (SyntaxError, ValueError, RecursionError):
-        return set()
+    tree = parsed(content)
     found = [(call, name) for call, name in calls(tree) if name.startswith("declare_parameter")]
     names = {text(argument(call, "name", 0)) for call, _ in found}
     if "" in names or any(name == "declare_parameters" for _, name in found):

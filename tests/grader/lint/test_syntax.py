@@ -5,7 +5,7 @@ import ast
 import pytest
 
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.syntax import walk
+from gz_course.grader.lint.syntax import parsed, walk
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import whole_numbers
@@ -43,3 +43,8 @@ def test_a_tree_is_walked_once_and_stays_as_it_is():
     assert list(walk(tree)) == list(ast.walk(tree))
     assert walk(tree) is walk(tree)
     assert ast.unparse(tree) == source
+
+
+def test_a_file_is_parsed_once_for_all_looks():
+    assert parsed(b"a = 1") is parsed(b"a = 1")
+    assert parsed(b"def\n").body == []

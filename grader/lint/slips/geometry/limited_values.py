@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.language.own_calls import calls_of_own, parameters
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, last_name, walk
+from gz_course.grader.lint.syntax import Place, calls, functions, last_name, set_to, walk
 
 Values = Mapping[str, float]
 COMPARED: dict[type[ast.cmpop], Callable[[float, float], bool]] = {
@@ -145,9 +145,7 @@ def _values_in_functions(tree: ast.AST) -> dict[int, dict[str, list[ast.expr]]]:
     """Return, for each call, the values that the names of its function are given."""
     found: dict[int, dict[str, list[ast.expr]]] = {}
     for function in functions(tree):
-        values: dict[str, list[ast.expr]] = {}
-        for target, value in assigned(function):
-            values.setdefault(ast.unparse(target), []).append(value)
+        values = set_to(function)
         found.update({id(call): values for call, _ in calls(function)})
     return found
 

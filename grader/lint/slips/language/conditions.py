@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.slips.language.unreached import blocks
-from gz_course.grader.lint.syntax import Place, assigned, functions, walk
+from gz_course.grader.lint.syntax import Place, assigned, functions, is_none, walk
 
 ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}
@@ -98,7 +98,7 @@ def none_for_ever(tree: ast.AST) -> Iterator[Place]:
         if not name.startswith("self.") or last in others or "setattr" in ast.unparse(tree):
             continue
         given = values.get(last, [])
-        if not given or not all(isinstance(each, ast.Constant) and each.value is None for each in given):
+        if not given or not all(is_none(each) for each in given):
             continue
         instead = [ast.unparse(target) for each in node.body for target, _ in assigned(each)]  # type: ignore[attr-defined]
         if instead:

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, walk
+from gz_course.grader.lint.syntax import Place, is_none, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 LEAVES = ast.Return | ast.Continue | ast.Raise
@@ -45,8 +45,8 @@ def _values(tree: ast.AST) -> tuple[set[str], dict[str, list[str]]]:
                 continue
             made = next((each for each in walk(function) if _makes(each, node)), None)
             value = getattr(made, "value", None)
-            is_none = isinstance(made, ast.Assign | ast.AnnAssign) and value is not None and _is_none(value)
-            none[node.attr] = none.get(node.attr, True) and is_none and function.name == "__init__"
+            nothing = isinstance(made, ast.Assign | ast.AnnAssign) and value is not None and is_none(value)
+            none[node.attr] = none.get(node.attr, True) and nothing and function.name == "__init__"
             if function.name != "__init__":
                 set_in.setdefault(node.attr, []).append(function.name)
     own = {id(each) for function in _functions(tree) for each in walk(function)}
@@ -62,16 +62,12 @@ def _makes(statement: ast.AST, target: ast.Attribute) -> bool:
     return isinstance(statement, ast.Assign | ast.AnnAssign) and target in targets
 
 
-def _is_none(value: ast.AST) -> bool:
-    return isinstance(value, ast.Constant) and value.value is None
-
-
 def _asked_for_none(test: ast.expr) -> Iterator[str]:
     """Yield the attributes of self of which one that is None makes a condition true."""
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.Or):
         for each in test.values:
             yield from _asked_for_none(each)
-    elif isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and _is_none(test.comparators[0]):
+    elif isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and is_none(test.comparators[0]):
         yield from _own(test.left)
     elif isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
         yield from _own(test.operand)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, functions, walk
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, is_none, set_to, walk
 
 NEVER_RETURN = frozenset({"NotImplementedError", "abstractmethod"})
 
@@ -61,7 +61,7 @@ def _used(tree: ast.AST) -> Iterator[ast.expr]:
                 yield test
             case ast.BoolOp(values=values):
                 yield from values
-            case ast.Compare(left=left, comparators=others) if not any(_is_none(each) for each in others):
+            case ast.Compare(left=left, comparators=others) if not any(is_none(each) for each in others):
                 yield from (left, *others)
             case ast.BinOp(left=left, right=right):
                 yield from (left, right)
@@ -69,15 +69,9 @@ def _used(tree: ast.AST) -> Iterator[ast.expr]:
                 yield given
 
 
-def _is_none(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None
-
-
 def one_message(tree: ast.AST) -> Iterator[Place]:
     """Find `self.halt = self.go` and then fields of self.halt that are set, where both are published."""
-    values: dict[str, list[ast.expr]] = {}
-    for target, value in assigned(tree):
-        values.setdefault(ast.unparse(target), []).append(value)
+    values = set_to(tree)
     sent = {ast.unparse(call.args[0]) for call, name in calls(tree) if name == "publish" and call.args}
     for target, value in assigned(tree):
         name, other = ast.unparse(target), ast.unparse(value)

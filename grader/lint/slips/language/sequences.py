@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, Places, functions, last_name, places_in, walk
+from gz_course.grader.lint.syntax import Place, Places, functions, last_name, left_early, places_in, walk
 
 READ_ONCE = frozenset({"filter", "map", "zip", "reversed", "iter", "enumerate"})
 READERS = frozenset({
@@ -50,7 +50,7 @@ def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
         if isinstance(node, ast.Call) and last_name(node.func) in READERS:
             yield from (each for each in node.args if isinstance(each, ast.Name) and each.id == name)
         elif isinstance(node, ast.For | ast.comprehension) and ast.unparse(node.iter) == name:
-            ends = isinstance(node, ast.For) and any(isinstance(each, ast.Break | ast.Return) for each in walk(node))
+            ends = isinstance(node, ast.For) and left_early(node)
             if not ends:
                 yield node.iter
 

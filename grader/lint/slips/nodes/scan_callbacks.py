@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, calls, functions, walk
+from gz_course.grader.lint.syntax import Place, calls, functions, left_early, walk
 
 LONG = 0.05  # [s] of sleep; data come 10 times a second and faster
 ASKS_FOR_INVALID = ("isinf", "isnan", "isfinite", "range_max", "range_min", "inf", "nan")
@@ -88,7 +88,7 @@ def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
             over = ast.unparse(loop.iter)
             if ".ranges" not in over and over not in rays:
                 continue
-            if any(isinstance(node, ast.Break | ast.Return) for node in walk(loop)):
+            if left_early(loop):
                 continue
             for call, _ in calls(loop):
                 if ast.unparse(call.func).endswith(".publish"):

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.language.unreached import blocks
-from gz_course.grader.lint.syntax import Place, called, calls, functions, walk
+from gz_course.grader.lint.syntax import Place, called, calls, functions, left_early, walk
 
 SPINS = frozenset(
     {"spin", "spin_once", "spin_some", "spin_until_future_complete", "wait_for_message", "wait_for_service"}
@@ -39,9 +39,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
                     "rclpy.spin(node)",
                 )
                 return
-            if (endless and not any(isinstance(each, ast.Break | ast.Return) for each in walk(node))) or (
-                inside & CLOCKS - {"sleep"}
-            ):
+            if (endless and not left_early(node)) or (inside & CLOCKS - {"sleep"}):
                 where = "__init__" if function.name == "__init__" else f"{function.name}()"
                 yield (
                     node.lineno,

@@ -93,6 +93,10 @@ def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def _broken_off(loop: ast.While) -> bool:
+    return any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
+
+
 def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives until one coordinate fits, where no condition asks for the other one or a distance."""
     if not called(tree) & {"succeed"}:
@@ -103,7 +107,7 @@ def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
                 found = [each for each in loop.test.values if _compared(each)[0]]
             else:
                 found = [loop.test] if _compared(loop.test)[0] else []
-            left = any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
+            left = _broken_off(loop)
             if len(found) == 1 and _compared(found[0])[1] and not left:
                 other = "y" if _compared(found[0])[0] == "x" else "x"
                 yield (
@@ -136,7 +140,7 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
     if not called(tree) & {"succeed"}:
         return
     for loop in (each for each in walk(tree) if isinstance(each, ast.While)):
-        left = any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
+        left = _broken_off(loop)
         for node in loop.test.values if isinstance(loop.test, ast.BoolOp) else [loop.test]:
             match node:
                 case ast.Compare(

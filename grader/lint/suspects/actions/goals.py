@@ -103,11 +103,15 @@ def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def _fields(tree: ast.AST) -> list[tuple[ast.expr, str | None]]:
+    """Return what is given to fields of messages, by keyword or by assignment, with the name of the field."""
+    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
+    return given + [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
+
+
 def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
     """Find a distance of a feedback that is made a whole number, where the field is a float."""
-    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
-    given += [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
-    for value, field in given:
+    for value, field in _fields(tree):
         name = last_name(value.func) if isinstance(value, ast.Call) else ""
         if field == "distance" and isinstance(value, ast.Call) and len(value.args) == 1 and name in ("round", "int"):
             yield (
@@ -120,9 +124,7 @@ def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
 
 def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find an index of a feedback that is a quotient or is made a float, where the field is an int32."""
-    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
-    given += [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
-    for value, field in given:
+    for value, field in _fields(tree):
         quotient = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div)
         if field == "waypoint" and (quotient or (isinstance(value, ast.Call) and last_name(value.func) == "float")):
             yield (

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, is_none, last_name, walk
 
 LIMIT = "max_speed"
 
@@ -39,7 +39,7 @@ def lists_are_never_none(tree: ast.AST) -> Iterator[Suspect]:
     for function in _judges(tree):
         for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
             other = node.comparators[0]
-            if last_name(node.left) == "waypoints" and isinstance(other, ast.Constant) and other.value is None:
+            if last_name(node.left) == "waypoints" and is_none(other):
                 yield (
                     node.lineno,
                     "accepts_empty",

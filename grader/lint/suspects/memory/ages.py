@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, calls, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, set_to, walk
 
 OLDER, YOUNGER = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 LEAVES = ast.Return | ast.Continue
@@ -22,7 +22,7 @@ NANO = 1e9
 
 def turned(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if age > LIMIT:` before what uses the message, and `if age < LIMIT: return`."""
-    values = _values(tree)
+    values = set_to(tree)
     for node in walk(tree):
         if not isinstance(node, ast.If):
             continue
@@ -42,7 +42,7 @@ def turned(tree: ast.AST) -> Iterator[Suspect]:
 
 def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
     """Find a limit of the age that is never passed, and a branch for old messages that does not drop them."""
-    values, names = _values(tree), named_numbers(tree)
+    values, names = set_to(tree), named_numbers(tree)
     for node in walk(tree):
         if not isinstance(node, ast.If):
             continue
@@ -104,14 +104,6 @@ def _in_seconds(node: ast.AST, values: dict[str, list[ast.expr]], steps: int) ->
         value for each in parts for value in values.get(ast.unparse(each), ()) if not isinstance(value, ast.Constant)
     ]
     return steps <= 0 or all(_in_seconds(each, values, steps - 1) for each in given)
-
-
-def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
-    """Return all that is assigned to each name."""
-    values: dict[str, list[ast.expr]] = {}
-    for target, value in assigned(tree):
-        values.setdefault(ast.unparse(target), []).append(value)
-    return values
 
 
 def _parts(test: ast.expr, holds: bool) -> Iterator[tuple[ast.expr, bool]]:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, called, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, set_to, walk
 
 INCREMENT = "angle_increment"
 OFFSETS = re.compile(r"\bangle_m(?:in|ax)\b")
@@ -143,12 +143,9 @@ def _is_angle(node: ast.expr, names: set[str]) -> bool:
 
 def _radians(tree: ast.AST) -> set[str]:
     """Return the names that are given angles in radians somewhere in the file."""
-    values: dict[str, list[ast.expr]] = {}
-    for target, value in assigned(tree):
-        values.setdefault(ast.unparse(target), []).append(value)
     return {
         name
-        for name, given in values.items()
+        for name, given in set_to(tree).items()
         if any(RADIANS.search(ast.unparse(each)) and not _is_index(each) for each in given)
     }
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name, left_early, walk
 
 LEAST, MOST = 0.3, 2.5  # [m] ranges below and beyond which a node may leave out
 WIDE_ENDS, WIDE = 2, 0.7  # limits of a sector, and how far apart they are at least [rad]
@@ -82,7 +82,7 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
     for function in functions(tree):
         for loop in (node for node in walk(function) if isinstance(node, ast.For)):
             kept = _range_of(loop)
-            if not kept or any(isinstance(node, ast.Break | ast.Return) for node in walk(loop)):
+            if not kept or left_early(loop):
                 continue
             for target, value in assigned(loop):
                 if not isinstance(target, ast.Name) or ast.unparse(value) not in kept:

@@ -13,13 +13,11 @@ from gz_course.grader.lint.suspects.steering.endless_drives import (
     TIMES,
     asked_for_none,
     in_init,
-    is_none,
     is_zero,
     publish_calls,
     set_speeds,
-    set_to,
 )
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, is_none, set_to, walk
 
 STEPS = 5  # names followed at most  # names followed at most
 OTHER_TASKS = frozenset({"ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform"})

@@ -7,27 +7,15 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.slips.clocks.time_units import unit_of
-from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, set_to, walk
 
 LONG = 8.0  # [s] more is no drive of a run
 TIMES = frozenset({"now", "get_clock", "stamp", "time", "monotonic", "perf_counter", "sleep", "nanoseconds", "clock"})
 
 
-def set_to(tree: ast.AST) -> dict[str, list[ast.expr]]:
-    """Return what each name and attribute of a file is set to."""
-    found: dict[str, list[ast.expr]] = {}
-    for target, value in assigned(tree):
-        found.setdefault(ast.unparse(target), []).append(value)
-    return found
-
-
 def in_init(tree: ast.AST) -> set[int]:
     """Return the nodes within the `__init__` of classes, by their identity."""
     return {id(node) for each in functions(tree) if each.name == "__init__" for node in walk(each)}
-
-
-def is_none(node: ast.AST) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None
 
 
 def asked_for_none(test: ast.expr) -> str:
