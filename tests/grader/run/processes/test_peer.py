@@ -19,9 +19,11 @@ from gz_course.grader.run.sandbox.probe import try_level
 DEADLINE = 120.0  # [s]
 HELLO = '{"hello": {"pid": 1, "group": 1, "command": ["python", "gz", "sim"]}}'
 STRANGER = f"""
-import socket, sys
+import os, socket, sys
+folder, name = os.path.split(sys.stdin.readline().strip())
+os.chdir(folder)  # the path may be longer than the address of a socket
 channel = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-channel.connect(sys.stdin.readline().strip())
+channel.connect(name)
 try:
     channel.send({HELLO!r}.encode())
     heard = channel.recv(100)
@@ -33,10 +35,12 @@ print("heard" if heard else "refused", flush=True)
 MEMBER = f"""
 import os, socket, subprocess, sys
 CODE = '''
-import socket, sys, time
+import os, socket, sys, time
+folder, name = os.path.split(sys.argv[1])
+os.chdir(folder)
 channels = [socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) for _ in range(2)]
 for each in channels:
-    each.connect(sys.argv[1])
+    each.connect(name)
 channels[0].send(sys.argv[2].encode())
 print("second", channels[1].recv(100), flush=True)
 time.sleep(1000)
