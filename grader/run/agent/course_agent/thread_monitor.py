@@ -32,11 +32,6 @@ MOST_READS = 1_000  # of the clock without a wait in between
 MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in between
 POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
 
-# [s] for which no thread at work may have run until they are taken to wait in calls that are not watched. On a busy
-# machine whoever holds a lock inside a library, which DDS shares with other processes, may get no processor for long.
-QUIET = 0.5
-LONGEST_LOOK = 0.1  # [s] of that which count between two looks; more is a machine that stood still
-
 # The clocks and the sleep of the machine, for the agent itself.
 monotonic, sleep, time_ns = time.monotonic, time.sleep, time.time_ns
 
@@ -76,8 +71,7 @@ class ThreadMonitor:
         self._waits: dict[int, Wait] = {}
         self._reads: dict[int, int] = {}
         self._polls: dict[int, int] = {}
-        self._elsewhere: dict[int, tuple[int, str]] = {}  # number -> native id and what the kernel said of it
-        self._looked = self._quiet = 0.0  # [s] the last look, and for how long it has said that
+        self._elsewhere: dict[int, tuple[int, str]] = {}  # native id and number -> what the kernel said of it
 
     # Threads
 
@@ -217,8 +211,8 @@ class ThreadMonitor:
     def look_for_strays(self, native: dict[int, int]) -> None:
         """Do not count threads as at work that do not run: they wait in calls that are not watched.
 
-        `native` are the kernel's numbers of threads. If none that is at work has run or wanted to for `QUIET`, they
-        stay uncounted until their next watched wait, but for those that run a callback. While one does, another
+        `native` are the kernel's numbers of threads. If none that is at work has run or wanted to since the last look,
+        they stay uncounted until their next watched wait, but for those that run a callback. While one does, another
         may wait for it, such as for a lock that it holds: on a busy machine that takes long.
         """
         said = {}
@@ -227,10 +221,8 @@ class ThreadMonitor:
             if number is not None and number in self._working:
                 said[number] = (kernel, _scheduled(kernel))
         quiet = all(text and self._elsewhere.get(number) == (kernel, text) for number, (kernel, text) in said.items())
-        now, before = monotonic(), self._looked
-        self._elsewhere, self._looked = said, now
-        self._quiet = self._quiet + min(now - before, LONGEST_LOOK) if quiet else 0.0
-        if self._quiet >= QUIET:
+        self._elsewhere = said
+        if quiet:
             with self.lock:
                 self._working -= said.keys() - self.calling
 

@@ -7,7 +7,7 @@ import time
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from gz_course.grader.run.agent.course_agent.thread_monitor import QUIET, ThreadMonitor
+from gz_course.grader.run.agent.course_agent.thread_monitor import ThreadMonitor
 
 MILLISECOND = 1_000_000
 
@@ -85,14 +85,12 @@ def test_who_waits_for_a_thread_that_runs_is_no_stray():
             time.sleep(0.005)  # lets the others run
 
     waiting, computing = watched(lambda: os.read(reading, 1)), watched(compute)
-    enough = time.monotonic() + 2 * QUIET
-    looked(lambda: time.monotonic() > enough)
+    looks = iter(range(5))
+    looked(lambda: next(looks, None) is None)
     assert len(threads._working) == 2
     go_on.set()
     computing.join()
-    ended = time.monotonic()
     looked(lambda: threads.idle)
-    assert time.monotonic() - ended >= QUIET / 2  # less may be a lock that another process holds
     os.write(writing, b"x")
     waiting.join()
     os.close(reading), os.close(writing)
