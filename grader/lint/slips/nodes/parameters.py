@@ -134,11 +134,23 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
     """Find `.integer_value` of a parameter that is a double: only the field of its own type is set."""
     known = declared(tree) or {}
     asked = {id(call): name for call, name in reads(tree)}
+    own = {
+        function.name
+        for function in functions(tree)
+        for each in walk(function)
+        if isinstance(each, ast.Return) and isinstance(each.value, ast.Call)
+        and last_name(each.value.func) == "get_parameter_value"
+    }  # fmt: skip
     for node in walk(tree):
         match node:
-            case ast.Attribute(
-                value=ast.Call(func=ast.Attribute(value=ast.Call() as read, attr="get_parameter_value")), attr=field
+            case (
+                ast.Attribute(
+                    value=ast.Call(func=ast.Attribute(value=ast.Call() as read, attr="get_parameter_value")), attr=field
+                )
+                | ast.Attribute(value=ast.Call() as read, attr=field)
             ):
+                if read is node.value and last_name(read.func) not in own:
+                    continue
                 _, default = known.get(asked.get(id(read), ""), (0, None))
                 kind = type(default.value) if isinstance(default, ast.Constant) else None
                 right = FIELDS.get(kind) if kind is not None else None
@@ -146,7 +158,7 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
                     yield (
                         node.lineno,
                         f"{field} of the parameter {asked[id(read)]} is never set, because that is {NAMES[kind]}: "  # type: ignore[index]
-                        f"its value is in {right}, or take {ast.unparse(read)[:60]}.value",
+                        f"its value is in {right}, or take get_parameter({asked[id(read)]!r}).value",
                     )
 
 
