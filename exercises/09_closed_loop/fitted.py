@@ -188,7 +188,8 @@ def best_wrong(bearings, ranges, rates, asked, kinds):
     least, known = nearest(bearings, ranges, SIDES[0])
     for distance, words in averages(least):
         if "mean" in kinds:
-            found += [(law(distance, bearing - np.pi / 2, rates, asked), words) for bearing in known]
+            shares = [law(distance, bearing - np.pi / 2, rates, asked) for bearing in known]
+            found += [(share, words) for share in shares if share > SURE or not words]
     for low, high in NARROW:
         least, known = nearest(bearings, ranges, (low, high))
         words = (

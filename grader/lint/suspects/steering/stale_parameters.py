@@ -63,9 +63,9 @@ def _seldom(tree: ast.Module, later: list[tuple[ast.Call, str]]) -> tuple[int, s
     for call, name in calls(tree):
         given = {each.arg: each.value for each in call.keywords}
         period = call.args[0] if call.args else given.get("timer_period_sec")
-        function = call.args[1] if len(call.args) > 1 else given.get("callback")
-        if name == "create_timer" and period is not None and function is not None:
-            slow[last_name(function)] = number(period, known) or 0.0
+        fired = call.args[1] if len(call.args) > 1 else given.get("callback")
+        if name == "create_timer" and period is not None and fired is not None:
+            slow[last_name(fired)] = number(period, known) or 0.0
     if not later or any(slow.get(function, 0.0) < SLOW for _, function in later):
         return None
     call, function = later[0]
