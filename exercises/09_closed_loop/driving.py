@@ -207,7 +207,7 @@ def on_off(run):
 def stopped(run):
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     going = signal.times[np.abs(signal.values) > 0.01] / 1e9
-    if not len(going) or going[-1] > run.times[-1] - 5 or run.ahead[-1] > 1.2:
+    if not len(going) or going[-1] > run.times[-1] - 5 or run.ahead[-1] > 2.0:
         return ""
     return f"the robot stopped for good at {going[-1]:.1f} s, {run.ahead[-1]:.1f} m before the wall ahead of it"
 
@@ -240,8 +240,9 @@ def rare_commands(run, times):
 def backwards(run):
     """Find out whether many commands drive the robot backwards."""
     values = run.recording.signal("topics/cmd_vel/linear/x").values
+    turns = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
     share = float((values < -0.01).mean()) if len(values) else 0.0
-    if share < 0.05:
+    if share < 0.05 or (turns > 1.55).mean() > 0.05:  # what is beyond its limit comes first
         return ""
     return (
         f"linear.x is below 0 in {share:.0%} of the commands, {values.min():.2f} m/s at least: there the robot drives "
@@ -255,3 +256,20 @@ def added(run):
     if not len(values) or (np.abs(values) > 1.45).mean() < 0.1:
         return ""
     return suspect(run.recording, "added")
+
+
+def speed_of_error(run):
+    """Find out whether linear.x follows the error of the distance, so that the robot stands where it is right."""
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    error = np.abs(np.interp(signal.times / 1e9, run.times, np.minimum(run.error, 9.0)))
+    chosen = (signal.times > 1e9) & (signal.values < 0.95 * run.limit) & (error < 1.0)
+    if chosen.sum() < 50 or error[chosen].std() < 0.03 or signal.values[chosen].std() < 0.01:
+        return ""
+    gain, least = np.polyfit(error[chosen], signal.values[chosen], 1)
+    alike = np.corrcoef(error[chosen], signal.values[chosen])[0, 1]
+    if alike < 0.95 or gain < 0.2 or abs(least) > 0.05:
+        return ""
+    return (
+        f"linear.x is about {gain:.1f} times the error of the distance, so the robot stands where the distance is "
+        "right: the error makes angular.z, and linear.x is made of speed_limit"
+    )

@@ -123,13 +123,16 @@ def directions(bearings):
             )
 
 
-def law(distance, heading, rates, asked):
-    """Return which share of the variance of turning rates [rad/s] the law explains, with the best gains."""
+def law(distance, heading, rates, asked, turned=0.0):
+    """Return which share of the variance of turning rates [rad/s] the law explains, with the best gains.
+
+    `turned` is the sign that the gain of the heading must have; 0 for any.
+    """
     free, best = np.abs(rates) < 0.95 * LIMIT, 0.0
     for inner in INNER:
         terms = np.stack([np.clip(distance - asked, -inner, inner), heading], axis=1)
         gains = np.linalg.lstsq(terms[free], rates[free], rcond=None)[0]
-        if gains[0] < 0.3 or terms[:, 0].std() < EVEN:
+        if gains[0] < 0.3 or gains[1] * turned < -0.3 or terms[:, 0].std() < EVEN:
             continue
         left = rates - np.clip(terms @ gains, -LIMIT, LIMIT)
         best = max(best, 1 - float((left**2).mean()) / max(rates.var(), 1e-9))
@@ -180,6 +183,32 @@ def best_right(bearings, ranges, rates, asked):
         for heading in (*(bearing - np.pi / 2 for bearing in known), np.zeros(len(rates))):
             best = max(best, law(least, heading, rates, asked), law(least, heading, -rates, asked))
     return best
+
+
+def signs(bearings, ranges, rates, asked, side):
+    """Return which of the two terms has the wrong sign, if the law fits with that sign and not without."""
+    free = np.abs(rates) < 0.95 * LIMIT
+    if len(rates) < SCANS or free.sum() < FEWEST or rates[free].var() < 0.005:
+        return ""
+    ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, np.inf)
+    found = {}
+    for limits in SIDES:
+        least, known = nearest(bearings, ranges, limits)
+        for heading in (bearing - np.pi / 2 for bearing in known):
+            for name, given, turned in (("", rates, 1.0), ("heading", rates, -1.0), ("distance", -rates, -1.0)):
+                found[name] = max(found.get(name, 0.0), law(least, heading, given, asked, turned))
+    name = max(("heading", "distance"), key=found.__getitem__)
+    if found[name] < LEAST or 1 - found[name] > BETTER * (1 - found[""]):
+        return ""
+    if name == "distance":
+        return (
+            f"the distance is fed back with the wrong sign: where the robot is too far from its wall ({side}), it "
+            "turns away from it, and where it is too near, towards it"
+        )
+    return (
+        "the heading is fed back with the wrong sign: where the nearest point of the wall is ahead of abeam, the robot "
+        "must turn away from the wall, and it turns towards it"
+    )
 
 
 def best_wrong(bearings, ranges, rates, asked, kinds):

@@ -32,12 +32,14 @@ def circling(run, values):
     usual = float(np.median(values)) if len(values) else 0.0
     if len(values) < FEWEST or not late.any() or (run.error[late] > 0.1).mean() < 0.95:
         return ""
-    if run.sign * usual < 0.95 * LIMIT or (np.abs(values - usual) < 0.05).mean() < 0.9 or np.abs(run.along).sum() < 2:
+    if run.sign * usual < 0.5 or (np.abs(values - usual) < 0.05).mean() < 0.9 or np.abs(run.along).sum() < 2:
         return ""
+    said = (
+        f"angular.z is {usual:.2f} rad/s{', its limit,' if abs(usual) > 0.95 * LIMIT else ''} in nearly every command"
+    )
     return (
-        f"angular.z is {usual:.2f} rad/s, its limit, in nearly every command: the robot turns towards its wall, in "
-        "circles, because nothing turns it back once it heads for the wall; limit what the error of the distance asks "
-        "for, so that the bearing of the nearest point can outweigh it"
+        f"{said}: the robot turns towards its wall, in circles, because nothing turns it back once it heads for the "
+        "wall; limit what the error of the distance asks for, so that the bearing of the nearest point can outweigh it"
     )
 
 

@@ -44,6 +44,7 @@ def explain(run):
         other_side,
         lambda run: DRIVING["zero_rays"](run, *scans(run)),
         DRIVING["speed_by_distance"],
+        DRIVING["speed_of_error"],
         DRIVING["other_axes"],
         lambda run: DRIVING["silent"](run, scans(run)[0]),
         unchanging,
@@ -84,7 +85,6 @@ def explain(run):
 
 
 def open_loop(run):
-    """Find out whether the node hears the lidar at all."""
     ends = run.recording.facts().get("endpoints", [])
     if any(end["kind"] == "subscription" and end["topic"] == "/lidar/scan" for end in ends):
         return ""
@@ -187,6 +187,7 @@ def steers_by(run):
     said = FITTED["steers_by"](*seen, kinds)
     if "counts for nothing" in said and (why := suspect(run.recording, "whole metres")):
         return f"{said}: {why}"
+    said = said or FITTED["signs"](*seen, run.side)
     return said or FITTED["times_speed"](*seen, ahead_of(run, times[heard])[chosen])
 
 

@@ -150,3 +150,23 @@ def test_a_robot_that_circles_far_from_its_wall_is_described():
     assert LAW["circling"](run, np.full(SCANS, -1.5)) == ""
     run.side, run.sign = "right", -1.0
     assert "with side 'right'" in LAW["unchanging"](run, np.full(SCANS, 1.5))
+
+
+def test_a_speed_that_is_made_of_the_error_is_named():
+    error = 0.3 + 0.2 * np.sin(np.arange(SCANS) / 9)
+    for ahead, words in ((error, "linear.x is about 1.0 times the error of the distance"), (0.5 - 0.5 * error, "")):
+        run = driven(np.zeros(SCANS), ahead)
+        run.error = error
+        said = DRIVING["speed_of_error"](run)
+        assert words in said and bool(words) == bool(said)
+
+
+@pytest.mark.parametrize(
+    ("distance", "heading", "words"),
+    [(1, 1, ""), (-1, 1, "the distance is fed back with the wrong"), (1, -1, "the heading is fed back with the wrong")],
+)
+def test_a_term_with_the_wrong_sign_is_named(ranges, distance, heading, words):
+    least, (exact, *_) = FITTED["nearest"](BEARINGS, ranges, SIDE)
+    rates = np.clip(distance * np.clip(3 * (least - 0.6), -1, 1) + heading * 1.6 * (exact - np.pi / 2), -1.5, 1.5)
+    said = FITTED["signs"](BEARINGS, ranges, rates, ASKED, "left")
+    assert words in said and bool(words) == bool(said)

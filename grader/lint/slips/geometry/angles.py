@@ -88,4 +88,21 @@ def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)
+def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
+    """Find pi // 2, which is 1.0."""
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
+                if ast.unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
+                    text = ast.unparse(node)
+                    sign = -1 if text.startswith("-") else 1
+                    yield (
+                        node.lineno,
+                        (
+                            f"{text} is {sign * math.pi // parts:g}, because // rounds down: {text.replace('//', '/')} is "
+                            f"{sign * math.pi / parts:.2f}"
+                        ),
+                    )
+
+
+LOOKS = (whole_parts_of_pi, degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)
