@@ -313,7 +313,7 @@ def wound_up(run):
         return f"{said}: {why}"
     if len(scans(run)[0]) and LAW["agrees"](*point_and_rates(run)) > 0.9:
         return ""  # it answers the nearest point as it should
-    return f"{said}: what your node takes for the distance is larger than that of the nearest point, or comes late"
+    return f"{said}: log what your node takes for the distance, and the distance that it keeps, and how old they are"
 
 
 def saturated(run):

@@ -93,16 +93,11 @@ def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
     for node in walk(tree):
         match node:
             case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
+                text = ast.unparse(node)
                 if ast.unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
-                    text = ast.unparse(node)
-                    sign = -1 if text.startswith("-") else 1
-                    yield (
-                        node.lineno,
-                        (
-                            f"{text} is {sign * math.pi // parts:g}, because // rounds down: {text.replace('//', '/')} is "
-                            f"{sign * math.pi / parts:.2f}"
-                        ),
-                    )
+                    angle = -math.pi if text.startswith("-") else math.pi
+                    right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
+                    yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
 
 
 LOOKS = (whole_parts_of_pi, degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)

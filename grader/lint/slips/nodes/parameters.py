@@ -262,6 +262,24 @@ def read_as_it_was(tree: ast.Module) -> Iterator[Place]:
                 return
 
 
+def set_over_what_is_given(tree: ast.Module) -> Iterator[Place]:
+    """Find a node that sets a parameter of its own in __init__ to the default that it has declared."""
+    inside, known = owners(tree), declared(tree) or {}
+    for call, name in calls(tree):
+        if name != "set_parameters" or inside[id(call)] != "__init__" or not ast.unparse(call.func).startswith("self."):
+            continue
+        for each in (node for node in walk(call) if isinstance(node, ast.Call) and last_name(node.func) == "Parameter"):
+            first = each.args[0].value if each.args and isinstance(each.args[0], ast.Constant) else None
+            given = [*each.args[2:], *(one.value for one in each.keywords if one.arg == "value")]
+            if first in known and given and isinstance(given[0], ast.Constant):
+                yield (
+                    call.lineno,
+                    f"{ast.unparse(each)[:60]} replaces the value that the node was started with: declare_parameter() "
+                    f"has taken that for {first} already, so remove it",
+                )
+                return
+
+
 def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for changes that takes the value of any parameter for that of one."""
     known = set(declared(tree) or {})
@@ -346,4 +364,5 @@ def declared_otherwise(tree: ast.AST, names: Sequence[str]) -> Iterator[Place]:
 LOOKS = (
     callbacks_without_result, results_that_refuse, callbacks_that_nobody_calls, objects_for_values, objects_for_names,
     fields_of_another_type, whole_numbers_of_doubles, texts_for_truth, other_spelling, read_as_it_was, whatever_is_set,
+    set_over_what_is_given,
 )  # fmt: skip

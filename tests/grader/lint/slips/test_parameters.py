@@ -120,3 +120,9 @@ class A:
     (said,) = [each["said"] for each in slips(file.replace("FIELD", "integer_value").encode())]
     assert "integer_value of the parameter distance is never set" in said
     assert slips(file.replace("FIELD", "double_value").encode()) == []
+
+
+def test_a_parameter_that_is_set_over_what_was_given_is_found():
+    sets = "self.set_parameters([rclpy.parameter.Parameter('distance', value=0.6)])"
+    assert any("replaces the value that the node was started with" in each for each in said(init=sets))
+    assert not any("replaces the value" in each for each in said(init=sets.replace("value=0.6", "value=far")))
