@@ -157,6 +157,8 @@ def weak(run):
             "angular.z was 0.026 rad/s at most, which is 1.5 degrees per second: 1.5 rad/s are allowed, so convert "
             "nothing"
         )
+    if abs(rates.max() - run.limit) < 1e-3:
+        return f"angular.z was {rates.max():.2f} rad/s at most, which is speed_limit: that limits linear.x alone"
     return (
         f"angular.z was {rates.max():.2f} rad/s at most, although the distance was wrong by up to {worst:.2f} m: the "
         "gain, or the limit of angular.z, is far too low to turn before a wall (1.5 rad/s are allowed)"
@@ -188,4 +190,86 @@ def elsewhere(run, settled):
     return (
         f"the robot is {usual:.2f} m from the nearest point of its wall most of the time, where {asked:g} m is asked "
         "for: print what your node takes for that distance, and angular.z beside it"
+    )
+
+
+def on_off(run):
+    values = run.recording.signal("topics/cmd_vel/angular/z").values
+    found = np.unique(np.round(values[np.abs(values) > 0.01], 2))
+    if len(values) < 50 or len(found) not in (2, 3) or found[0] >= 0 or found[-1] <= 0 or found[-1] < 0.1:
+        return ""
+    return (
+        f"angular.z was only ever {', '.join(f'{value:g}' for value in found)} rad/s: on/off control overshoots at "
+        "every scan; make it proportional to the error"
+    )
+
+
+def stopped(run):
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    going = signal.times[np.abs(signal.values) > 0.01] / 1e9
+    if not len(going) or going[-1] > run.times[-1] - 5 or run.ahead[-1] > 2.0:
+        return ""
+    return f"the robot stopped for good at {going[-1]:.1f} s, {run.ahead[-1]:.1f} m before the wall ahead of it"
+
+
+def late_start(run, scans):
+    """Find out whether the first command comes long after the first scan."""
+    times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    if not len(times) or not len(scans) or times[0] - scans[0] < 3.0:
+        return ""
+    return (
+        f"the first command comes at {times[0]:.1f} s, after {(scans < times[0]).sum()} scans: until then the robot "
+        "stands; answer every scan from the first one on"
+    )
+
+
+def rare_commands(run, times):
+    """Find out whether commands come much more rarely than scans."""
+    commands = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    if len(commands) < 5 or len(times) < 5:
+        return ""
+    between, apart = float(np.median(np.diff(commands))), float(np.median(np.diff(times)))
+    if between < 2.5 * apart:
+        return ""
+    said = f"a command comes every {between:.2g} s only, and a scan every {apart:.2g} s"
+    if why := suspect(run.recording, "sleep"):
+        return f"{said}: {why}"
+    return f"{said}: until the next command the robot obeys one from an old scan; publish in the callback of each scan"
+
+
+def backwards(run):
+    """Find out whether many commands drive the robot backwards."""
+    values = run.recording.signal("topics/cmd_vel/linear/x").values
+    turns = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
+    share = float((values < -0.01).mean()) if len(values) else 0.0
+    if share < 0.05 or (turns > 1.55).mean() > 0.05:  # what is beyond its limit comes first
+        return ""
+    return (
+        f"linear.x is below 0 in {share:.0%} of the commands, {values.min():.2f} m/s at least: there the robot drives "
+        "backwards; a factor of it becomes negative, so limit it, max(0.1, ...)"
+    )
+
+
+def added(run):
+    """Find out whether each command is added to the one before, and the commands are often at their limit for it."""
+    values = run.recording.signal("topics/cmd_vel/angular/z").values
+    if not len(values) or (np.abs(values) > 1.45).mean() < 0.1:
+        return ""
+    return suspect(run.recording, "added")
+
+
+def speed_of_error(run):
+    """Find out whether linear.x follows the error of the distance, so that the robot stands where it is right."""
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    error = np.abs(np.interp(signal.times / 1e9, run.times, np.minimum(run.error, 9.0)))
+    chosen = (signal.times > 1e9) & (signal.values < 0.95 * run.limit) & (error < 1.0)
+    if chosen.sum() < 50 or error[chosen].std() < 0.03 or signal.values[chosen].std() < 0.01:
+        return ""
+    gain, least = np.polyfit(error[chosen], signal.values[chosen], 1)
+    alike = np.corrcoef(error[chosen], signal.values[chosen])[0, 1]
+    if alike < 0.95 or gain < 0.2 or abs(least) > 0.05:
+        return ""
+    return (
+        f"linear.x is about {gain:.1f} times the error of the distance, so the robot stands where the distance is "
+        "right: the error makes angular.z, and linear.x is made of speed_limit"
     )

@@ -7,6 +7,7 @@ import numpy as np
 
 LIMIT = 1.5  # [rad/s]
 NEAR = 0.35  # [m] error up to which the approach grows with the error in most programs
+SETTLED = 7.0  # [s] after the start
 FEWEST = 60  # scans
 CONSTANTS = np.arange(-4.0, 4.01, 0.2)  # [rad/s]
 WINDOWS, SHARES = (8, 12, 20, 30, 40), (0.15, 0.1, 0.07, 0.05, 0.03)  # of moving averages: scans, weight of the newest
@@ -25,22 +26,41 @@ def opposite(run, point, rates, asked):
     )
 
 
+def circling(run, values):
+    """Return whether the robot turns towards its wall all the time, far from it; empty if not."""
+    late = run.times > SETTLED
+    usual = float(np.median(values)) if len(values) else 0.0
+    if len(values) < FEWEST or not late.any() or (run.error[late] > 0.1).mean() < 0.95:
+        return ""
+    if run.sign * usual < 0.5 or (np.abs(values - usual) < 0.05).mean() < 0.9 or np.abs(run.along).sum() < 2:
+        return ""
+    said = (
+        f"angular.z is {usual:.2f} rad/s{', its limit,' if abs(usual) > 0.95 * LIMIT else ''} in nearly every command"
+    )
+    return (
+        f"{said}: the robot turns towards its wall, in circles, because nothing turns it back once it heads for the "
+        "wall; limit what the error of the distance asks for, so that the bearing of the nearest point can outweigh it"
+    )
+
+
 def unchanging(run, values):
     """Return whether nearly all commands [rad/s] are the same, whatever the lidar saw; empty if not."""
     found, counts = np.unique(np.round(values, 3), return_counts=True)
     if len(values) < FEWEST or counts.max() < 0.95 * len(values):
         return ""
-    mirrored = ", and at its sign: the bearings of rays on the right are negative" if run.side == "right" else ""
-    if abs(usual := found[counts.argmax()]) > 0.95 * LIMIT:
+    usual = found[counts.argmax()]
+    if abs(usual) <= 0.95 * LIMIT:
         return (
-            f"angular.z is at its limit, {usual:.2f} rad/s, in nearly every command, whatever the lidar sees: the "
-            "error, or sum, that it is made of is never small and never changes its sign; log it, and look at its unit"
-            f"{mirrored}"
+            f"angular.z is {usual:.2f} rad/s in nearly every command, whatever the lidar sees: what it is made of does "
+            "not change with the scans"
         )
-    return (
-        f"angular.z is {usual:.2f} rad/s in nearly every command, whatever the lidar sees: what it is made of does not "
-        "change with the scans"
-    )
+    said = f"angular.z is at its limit, {usual:.2f} rad/s, in nearly every command, whatever the lidar sees"
+    if run.side == "right":
+        return (
+            f"with side 'right' {said}: what it is made of is never 0 there; the bearings of rays on the right are "
+            "negative, abeam is -pi/2, and a positive angular.z turns away from the wall"
+        )
+    return f"{said}: the error, or sum, that it is made of is never small and never changes its sign; log its terms"
 
 
 def one_way(run, point, rates, asked):

@@ -10,9 +10,13 @@ from gz_course.grader.score.suspects import suspect
 STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
 LAW = runpy.run_path(str(Path(__file__).with_name("law.py")))
 DRIVING = runpy.run_path(str(Path(__file__).with_name("driving.py")))
+FITTED = runpy.run_path(str(Path(__file__).with_name("fitted.py")))
 SEARCHING = runpy.run_path(str(Path(__file__).with_name("searching.py")))
 SETTLED = 7.0  # [s] after the start
 KEPT = 0.08  # [m] within which a distance is kept
+MEANS = {"mean", "median", "fmean", "average", "nanmean", "nanmedian", "percentile", "sum", "sorted", "sort"}
+# Wrong distances -> the functions one of which makes them.
+NEEDED = {"cos": {"cos"}, "sin": {"sin"}, "mean": MEANS, "max": {"max", "nanmax", "sorted", "sort", "argmax"}}
 BEHIND = "behind the robot"
 FIRST = 15  # scans in which the robot was too near
 
@@ -26,17 +30,21 @@ def explain(run):
         SEARCHING["quarters"],
         SEARCHING["halves"],
         SEARCHING["ramp"],
-        SEARCHING["stuck"],
         SEARCHING["turns_to_one_side"],
         exchanged,
+        DRIVING["backwards"],
+        steers_by,
+        SEARCHING["stuck"],
         never_drives,
-        rare_commands,
+        lambda run: DRIVING["late_start"](run, scans(run)[0]),
+        lambda run: DRIVING["rare_commands"](run, scans(run)[0]),
         in_degrees,
-        on_off,
+        DRIVING["on_off"],
         counted_from_ray_zero,
         other_side,
         lambda run: DRIVING["zero_rays"](run, *scans(run)),
         DRIVING["speed_by_distance"],
+        DRIVING["speed_of_error"],
         DRIVING["other_axes"],
         lambda run: DRIVING["silent"](run, scans(run)[0]),
         unchanging,
@@ -45,19 +53,20 @@ def explain(run):
         opposite,
         without_sign,
         deaf,
+        seldom,
         lambda run: LAW["left_alone"](*point_and_rates(run)) if len(scans(run)[0]) else "",
-        kept_beside,
+        lambda run: LAW["kept_beside"](run, SETTLED),
         offset,
         gaps,
         DRIVING["straight_on"],
-        added,
+        DRIVING["added"],
         mean_of_the_side,
         signs,
         nearest_anywhere,
         integrated,
         measures,
         DRIVING["counted_turns"],
-        stopped,
+        DRIVING["stopped"],
         old_distance,
         wrong_sign,
         wound_up,
@@ -68,7 +77,7 @@ def explain(run):
         DRIVING["weak"],
         DRIVING["against_a_wall"],
         lambda run: DRIVING["elsewhere"](run, SETTLED),
-        DRIVING["slow"],
+        lambda run: DRIVING["slow"](run) if np.median(np.abs(run.error[run.times > SETTLED])) < 0.3 else "",
     )
     if len(scans(run)[0]):
         run.lag = STEERING["lag"](run, *scans(run))
@@ -76,7 +85,6 @@ def explain(run):
 
 
 def open_loop(run):
-    """Find out whether the node hears the lidar at all."""
     ends = run.recording.facts().get("endpoints", [])
     if any(end["kind"] == "subscription" and end["topic"] == "/lidar/scan" for end in ends):
         return ""
@@ -95,28 +103,15 @@ def never_drives(run):
         less = "and turns on the spot" if (turns > 0.1).mean() > 0.5 else "and no command turns it"
         hits = scans(run)[2]
         none = "" if np.isfinite(hits).any() else "; no ray hits anything"
-        return f"the robot never drives, {less}: linear.x is 0 in {(ahead < 0.01).mean():.0%} of the commands{none}"
+        said = f"the robot never drives, {less}: linear.x is 0 in {(ahead < 0.01).mean():.0%} of the commands{none}"
+        far = ", also where the distance is wrong: it changes only while the robot drives"
+        return said + (far if "on the spot" in less and not none else "")
     if (turns > 1.0).mean() > 0.8:
         return (
             f"the robot turns on the spot all the time: angular.z is beyond 1 rad/s in {(turns > 1.0).mean():.0%} of "
             "the commands, so the angle that it is made of never becomes small"
         )
     return ""
-
-
-def rare_commands(run):
-    """Find out whether commands come much more rarely than scans."""
-    commands = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
-    times = scans(run)[0]
-    if len(commands) < 5 or len(times) < 5:
-        return ""
-    between, apart = float(np.median(np.diff(commands))), float(np.median(np.diff(times)))
-    if between < 2.5 * apart:
-        return ""
-    return (
-        f"a command comes every {between:.2g} s only, and a scan every {apart:.2g} s: until the next command the robot "
-        "obeys one from an old scan; publish in the callback of each scan"
-    )
 
 
 def measures(run):
@@ -146,8 +141,9 @@ def unchanging(run):
     if share > 0.3 and (why := suspect(run.recording, "unit")):
         return f"angular.z was at its limit in {share:.0%} of the commands: {why}"
     said = LAW["unchanging"](run, values)
+    circling = LAW["circling"](run, values)
     why = suspect(run.recording, "integral", "added", "first_kept", "farthest", "bearing") if said else ""
-    return f"{said.partition(':')[0]}: {why}" if why else said
+    return f"{said.partition(':')[0]}: {why}" if why else circling or said
 
 
 def one_way(run):
@@ -167,9 +163,32 @@ def exchanged(run):
     if not len(times):
         return ""
     point, rates, asked = point_and_rates(run, standing=True)
+    ahead = ahead_of(run, times[STEERING["answered"](run, times)[0]])
+    return SEARCHING["exchanged"](run, point, rates, asked, ahead)
+
+
+def ahead_of(run, times):
+    """Return linear.x [m/s] of the commands that answer the scans of these times [s]."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
-    index = np.searchsorted(signal.times / 1e9, times[STEERING["answered"](run, times)[0]]) + run.lag
-    return SEARCHING["exchanged"](run, point, rates, asked, signal.values[np.minimum(index, len(signal.values) - 1)])
+    index = np.searchsorted(signal.times / 1e9, times) + run.lag
+    return signal.values[np.minimum(index, len(signal.values) - 1)]
+
+
+def steers_by(run):
+    """Find out which distance or bearing explains the commands, where those of the nearest point do not."""
+    times, bearings, ranges = scans(run)
+    if not len(times) or suspect(run.recording, "integral", "added", "delay"):
+        return ""
+    heard, rates, asked = STEERING["answered"](run, times)
+    chosen = moving(run)
+    called = {each["name"] for each in run.recording.facts().get("called", [])}
+    kinds = [kind for kind, names in NEEDED.items() if names & called]
+    seen = bearings, ranges[heard][chosen], rates[chosen], asked[chosen]
+    said = FITTED["steers_by"](*seen, kinds)
+    if "counts for nothing" in said and (why := suspect(run.recording, "whole metres")):
+        return f"{said}: {why}"
+    said = said or FITTED["signs"](*seen, run.side)
+    return said or FITTED["times_speed"](*seen, ahead_of(run, times[heard])[chosen])
 
 
 def moving(run):
@@ -192,11 +211,9 @@ def without_sign(run):
 
 
 def deaf(run):
-    return LAW["deaf"](*point_and_rates(run)) if len(scans(run)[0]) else ""
-
-
-def kept_beside(run):
-    return LAW["kept_beside"](run, SETTLED)
+    said = LAW["deaf"](*point_and_rates(run)) if len(scans(run)[0]) else ""
+    why = suspect(run.recording, "whole metres") if said else ""
+    return f"{said.partition(':')[0]}: {why}" if why else said
 
 
 def in_degrees(run):
@@ -222,31 +239,12 @@ def counted_from_ray_zero(run):
     return f"{said}; here, angle_min is {first[0]:.2f}, {BEHIND if abs(first[0]) > 3.0 else 'not 0'}" if said else ""
 
 
-def added(run):
-    """Find out whether each command is added to the one before, and the commands are often at their limit for it."""
-    values = run.recording.signal("topics/cmd_vel/angular/z").values
-    if not len(values) or (np.abs(values) > 1.45).mean() < 0.1:
-        return ""
-    return suspect(run.recording, "added")
-
-
 def mean_of_the_side(run):
     """Find out whether a mean of ranges is taken for the distance: it is larger, so the robot comes too near."""
     late = run.times > SETTLED
     if not late.any() or np.median(run.error[late]) > -0.1:
         return ""
     return suspect(run.recording, "mean")
-
-
-def on_off(run):
-    values = run.recording.signal("topics/cmd_vel/angular/z").values
-    found = np.unique(np.round(values[np.abs(values) > 0.01], 2))
-    if len(values) < 50 or len(found) not in (2, 3) or found[0] >= 0 or found[-1] <= 0 or found[-1] < 0.1:
-        return ""
-    return (
-        f"angular.z was only ever {', '.join(f'{value:g}' for value in found)} rad/s: on/off control overshoots at "
-        "every scan; make it proportional to the error"
-    )
 
 
 def other_side(run):
@@ -257,14 +255,6 @@ def other_side(run):
         return ""
     wrong = "right" if run.side == "left" else "left"
     return f'side is "{run.side}", but the robot keeps its distance from the wall on its {wrong}'
-
-
-def stopped(run):
-    signal = run.recording.signal("topics/cmd_vel/linear/x")
-    going = signal.times[np.abs(signal.values) > 0.01] / 1e9
-    if not len(going) or going[-1] > run.times[-1] - 5 or run.ahead[-1] > 1.2:
-        return ""
-    return f"the robot stopped for good at {going[-1]:.1f} s, {run.ahead[-1]:.1f} m before the wall ahead of it"
 
 
 def old_distance(run):
@@ -289,6 +279,18 @@ def old_distance(run):
     )
 
 
+def seldom(run):
+    """Find out whether the new distance is read too late, by the file, and was not answered at first."""
+    if not len(scans(run)[0]) or not np.isfinite(run.changed) or not (why := suspect(run.recording, "seldom distance")):
+        return ""
+    heard, rates, _ = STEERING["answered"](run, scans(run)[0])
+    times = scans(run)[0][heard]
+    first = (times > run.changed + 0.2) & (times < run.changed + 1.0)
+    if not first.any() or abs(rates[first].mean()) > 0.5:
+        return ""
+    return f"{why}; distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m at {run.changed:g} s"
+
+
 def wrong_sign(run):
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     error = np.interp(signal.times / 1e9, run.times, run.error)
@@ -311,7 +313,7 @@ def wound_up(run):
         return f"{said}: {why}"
     if len(scans(run)[0]) and LAW["agrees"](*point_and_rates(run)) > 0.9:
         return ""  # it answers the nearest point as it should
-    return f"{said}: what your node takes for the distance is larger than that of the nearest point, or comes late"
+    return f"{said}: log what your node takes for the distance, and the distance that it keeps, and how old they are"
 
 
 def saturated(run):

@@ -12,7 +12,7 @@ NUMBER = re.compile(r"(\d+\.?\d*)(?: m)? are left out")
 
 def searched(run):
     """Find out, by the file, whether another range than the nearest of this scan counts."""
-    return suspect(run.recording, "nearest range")
+    return suspect(run.recording, "nearest range", "divided")
 
 
 def left_out(run):

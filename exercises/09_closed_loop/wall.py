@@ -167,7 +167,7 @@ def follows(recording, parameters):
     way, could = float(run.along[near].sum()), float((run.allowed(run.times) * run.step).sum())
     least = parameters["share"] * could
     beside, _ = run.within(APPROACHED, run.times[-1], WIDE)
-    if way < least and beside > 0.85 and (why := DRIVING["slow"](run)):
+    if way < least and beside > 0.85 and (why := _slow(run)):
         said = f"{way:.1f} m; with speed_limit = {run.limit:g} m/s it could be {could:.1f} m"
         return Finding(False, f"at least {least:.1f} m forward along the wall on the {run.side}", said, explanation=why)
     return _finding(
@@ -175,6 +175,17 @@ def follows(recording, parameters):
         way >= least,
         f"at least {least:.1f} m forward along the wall on the {run.side}",
         f"{way:.1f} m; with speed_limit = {run.limit:g} m/s it could be {could:.1f} m",
+    )
+
+
+def _slow(run):
+    """Return why a robot that keeps its distance is slow; empty if it is not."""
+    times = run.recording.arrays("topics/lidar/scan/ranges")[0] / 1e9
+    return (
+        suspect(run.recording, "divided")
+        or DRIVING["silent"](run, times)
+        or DRIVING["backwards"](run)
+        or DRIVING["slow"](run)
     )
 
 
@@ -203,10 +214,11 @@ def keeps_limits(recording, parameters):
             )
             seen = f"{said}; the worst was {worst:.2f} {unit}"
             old = name == "linear/x" and not ((signal.values > high + 1e-3) | (signal.values < low - 1e-3)).any()
+            stale = suspect(recording, "parameter speed_limit", "seldom speed_limit", "parameter")
             why = (
                 f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at "
                 f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: "
-                f"{suspect(recording, 'parameter speed_limit', 'parameter') or 'the old limit still counts'}"
+                f"{stale or 'the old limit still counts'}"
                 if old
                 else (too_fast(run, worst) if name == "linear/x" else suspect(recording, "limit"))
                 or limits_missed(name.replace("/", "."), signal.values, low, high)

@@ -21,6 +21,8 @@ def declared(tree: ast.AST) -> dict[str, tuple[int, ast.expr | None]] | None:
         given: list[tuple[ast.expr, ast.expr | None]] = []
         if name == "declare_parameter" and call.args:
             given = [(call.args[0], call.args[1] if len(call.args) > 1 else None)]
+            if isinstance(call.args[0], ast.Name):
+                given = _listed(tree, call) or given
         elif name == "declare_parameters":
             rows = [*call.args[1:2], *(each.value for each in call.keywords if each.arg == "parameters")]
             if not rows or not isinstance(rows[0], ast.List | ast.Tuple):
@@ -34,6 +36,28 @@ def declared(tree: ast.AST) -> dict[str, tuple[int, ast.expr | None]] | None:
                 return None
             found.setdefault(one.value, (one.lineno, default))
     return found
+
+
+def _listed(tree: ast.AST, call: ast.Call) -> list[tuple[ast.expr, ast.expr | None]]:
+    """Return name and default of each parameter that a loop over literal pairs declares by a call; none otherwise."""
+    for loop in walk(tree):
+        match loop:
+            case ast.For(target=ast.Tuple(elts=[ast.Name(id=name), ast.Name(id=value)]), iter=rows):
+                pass
+            case _:
+                continue
+        if not any(each is call for each in walk(loop)) or [ast.unparse(each) for each in call.args] != [name, value]:
+            continue
+        match rows:
+            case ast.Call(func=ast.Attribute(value=ast.Dict(keys=keys, values=values), attr="items")):
+                return [(key, default) for key, default in zip(keys, values, strict=True) if key is not None]
+            case ast.List(elts=pairs) | ast.Tuple(elts=pairs):
+                return [
+                    (pair.elts[0], pair.elts[1])
+                    for pair in pairs
+                    if isinstance(pair, ast.Tuple) and len(pair.elts) == 2
+                ]
+    return []
 
 
 def readers(tree: ast.AST) -> set[str]:

@@ -21,6 +21,8 @@ from gz_course.grader.lint.slips.language.sequences import silent_log
 from gz_course.grader.lint.slips.nodes.message_fields import message_fields
 from gz_course.grader.lint.slips.nodes.transforms import lookups, shared_headers
 from gz_course.grader.lint.suspects import suspects
+from gz_course.grader.lint.suspects.steering.feedback import MEANS
+from gz_course.grader.lint.syntax import called, parsed
 from gz_course.grader.lint.time_reckoning import time_reckoning
 from gz_course.grader.lint.wall_clock import wall_clock
 from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
@@ -31,6 +33,9 @@ if TYPE_CHECKING:
     from gz_course.grader.run.run_loop import RunLoop
     from gz_course.grader.score.diagnosis import Diagnosis
     from gz_course.grader.submission import Submission
+
+# Functions of numbers and of lists: without them a file cannot hold some mistakes that fit a recording.
+OF_VALUES = frozenset({"cos", "sin", "min", "max", "nanmax", "argmax", "sum", "sorted", "sort", "percentile"}) | MEANS
 
 
 def fault(name: str, content: bytes) -> str | None:
@@ -79,6 +84,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     names = sorted({name for trial in exercise.trials for name in trial.parameters})
     places = {
         "before_speeds": before_speeds(content),
+        "called": [{"name": name} for name in sorted(called(parsed(content)) & OF_VALUES)],
         "conditions": conditions(content),
         "counters": counters(content),
         "delays": delays(content),

@@ -55,6 +55,7 @@ from gz_course.grader.lint.suspects.sensing import (
 )
 from gz_course.grader.lint.suspects.steering import (
     drives,
+    error_arithmetic,
     feedback,
     followers,
     headings,
@@ -120,6 +121,7 @@ LOOKS = (
     *own_places.LOOKS,
     *made_poses.LOOKS,
     *standstills.LOOKS,
+    *error_arithmetic.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -88,4 +88,16 @@ def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)
+def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
+    """Find pi // 2, which is 1.0."""
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
+                text = ast.unparse(node)
+                if ast.unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
+                    angle = -math.pi if text.startswith("-") else math.pi
+                    right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
+                    yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
+
+
+LOOKS = (whole_parts_of_pi, degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)

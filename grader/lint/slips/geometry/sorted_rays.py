@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions, walk
+from gz_course.grader.lint.syntax import Place, assigned, functions, last_name, walk
 
 FINDS = frozenset({"index", "argmin", "nanargmin"})
+ELEMENTWISE = frozenset({"hypot", "abs", "sqrt", "fabs"})
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
 # What was done to the ranges -> what it does to the numbers of their rays.
 DONE = {
@@ -118,12 +119,21 @@ def places_in_masked(tree: ast.AST) -> Iterator[Place]:
         masked: dict[str, str] = {}
         found: dict[str, tuple[str, str]] = {}
         for node in walk(function):
-            if isinstance(node, ast.Assign) and len(node.targets) == 1:
-                name, value = ast.unparse(node.targets[0]), node.value
+            for target, value in assigned(node) if isinstance(node, ast.Assign) else ():
+                name = ast.unparse(target)
                 if mask := _mask(value, masked):
                     masked[name] = mask
                 if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
                     found[name] = (ast.unparse(value), mask)
+        for name, line in _times_increment(function):
+            if name in found:
+                what, mask = found[name]
+                yield (
+                    line,
+                    f"{name} is a place among those that {mask[:30]} has left ({what[:50]}), not the number of a ray: "
+                    "compute the angles of all rays, and leave the same ones out of both",
+                )
+                return
         for node in (each for each in walk(function) if isinstance(each, ast.Subscript)):
             of, place = ast.unparse(node.value), node.slice
             what, mask = found.get(ast.unparse(place), ("", ""))
@@ -139,6 +149,14 @@ def places_in_masked(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
+def _times_increment(function: ast.FunctionDef) -> Iterator[tuple[str, int]]:
+    """Yield each factor of an angle_increment, with its line."""
+    for node in walk(function):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+            sides = ast.unparse(node.left), ast.unparse(node.right)
+            yield from ((one, node.lineno) for one, other in (sides, sides[::-1]) if other.endswith("angle_increment"))
+
+
 def _finds(call: ast.Call) -> bool:
     return ast.unparse(call.func).rpartition(".")[2] in ("argmin", "nanargmin", "argmax") and len(call.args) == 1
 
@@ -146,6 +164,9 @@ def _finds(call: ast.Call) -> bool:
 def _mask(node: ast.expr, masked: dict[str, str]) -> str:
     """Return by which mask an array is only a part, such as `ok` of `ranges[ok]`; empty if it is whole."""
     text = ast.unparse(node)
+    if isinstance(node, ast.Call) and last_name(node.func) in ELEMENTWISE and node.args:
+        masks = {_mask(each, masked) for each in node.args}
+        return masks.pop() if len(masks) == 1 else ""
     if isinstance(node, ast.Subscript):
         part = node.slice
         name = isinstance(part, ast.Name) and not part.id.startswith(("i", "k", "n", "j"))

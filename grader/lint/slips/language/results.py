@@ -55,8 +55,12 @@ def _gives_something(function: ast.FunctionDef, inner: set[int]) -> bool:
 
 def _used(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield the expressions of which a value is wanted: conditions, terms, sides of comparisons, what is published."""
+    done = {id(each.body if isinstance(each, ast.Lambda) else each.value)
+            for each in walk(tree) if isinstance(each, ast.Lambda | ast.Expr)}  # fmt: skip
     for node in walk(tree):
         match node:
+            case ast.BoolOp(values=values) if id(node) in done:
+                yield from values[:-1]  # `lambda: self.scan and self.answer()` calls it, and wants no value
             case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(operand=test):
                 yield test
             case ast.BoolOp(values=values):

@@ -134,11 +134,23 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
     """Find `.integer_value` of a parameter that is a double: only the field of its own type is set."""
     known = declared(tree) or {}
     asked = {id(call): name for call, name in reads(tree)}
+    own = {
+        function.name
+        for function in functions(tree)
+        for each in walk(function)
+        if isinstance(each, ast.Return) and isinstance(each.value, ast.Call)
+        and last_name(each.value.func) == "get_parameter_value"
+    }  # fmt: skip
     for node in walk(tree):
         match node:
-            case ast.Attribute(
-                value=ast.Call(func=ast.Attribute(value=ast.Call() as read, attr="get_parameter_value")), attr=field
+            case (
+                ast.Attribute(
+                    value=ast.Call(func=ast.Attribute(value=ast.Call() as read, attr="get_parameter_value")), attr=field
+                )
+                | ast.Attribute(value=ast.Call() as read, attr=field)
             ):
+                if read is node.value and last_name(read.func) not in own:
+                    continue
                 _, default = known.get(asked.get(id(read), ""), (0, None))
                 kind = type(default.value) if isinstance(default, ast.Constant) else None
                 right = FIELDS.get(kind) if kind is not None else None
@@ -146,7 +158,7 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
                     yield (
                         node.lineno,
                         f"{field} of the parameter {asked[id(read)]} is never set, because that is {NAMES[kind]}: "  # type: ignore[index]
-                        f"its value is in {right}, or take {ast.unparse(read)[:60]}.value",
+                        f"its value is in {right}, or take get_parameter({asked[id(read)]!r}).value",
                     )
 
 
@@ -250,6 +262,24 @@ def read_as_it_was(tree: ast.Module) -> Iterator[Place]:
                 return
 
 
+def set_over_what_is_given(tree: ast.Module) -> Iterator[Place]:
+    """Find a node that sets a parameter of its own in __init__ to the default that it has declared."""
+    inside, known = owners(tree), declared(tree) or {}
+    for call, name in calls(tree):
+        if name != "set_parameters" or inside[id(call)] != "__init__" or not ast.unparse(call.func).startswith("self."):
+            continue
+        for each in (node for node in walk(call) if isinstance(node, ast.Call) and last_name(node.func) == "Parameter"):
+            first = each.args[0].value if each.args and isinstance(each.args[0], ast.Constant) else None
+            given = [*each.args[2:], *(one.value for one in each.keywords if one.arg == "value")]
+            if first in known and given and isinstance(given[0], ast.Constant):
+                yield (
+                    call.lineno,
+                    f"{ast.unparse(each)[:60]} replaces the value that the node was started with: declare_parameter() "
+                    f"has taken that for {first} already, so remove it",
+                )
+                return
+
+
 def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for changes that takes the value of any parameter for that of one."""
     known = set(declared(tree) or {})
@@ -334,4 +364,5 @@ def declared_otherwise(tree: ast.AST, names: Sequence[str]) -> Iterator[Place]:
 LOOKS = (
     callbacks_without_result, results_that_refuse, callbacks_that_nobody_calls, objects_for_values, objects_for_names,
     fields_of_another_type, whole_numbers_of_doubles, texts_for_truth, other_spelling, read_as_it_was, whatever_is_set,
+    set_over_what_is_given,
 )  # fmt: skip

@@ -39,6 +39,33 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
                 )
 
 
+def list_of_all_scans(tree: ast.Module) -> Iterator[Suspect]:
+    """Find a list of ranges that is an attribute, grows in each scan, and is never emptied."""
+    if not _steers(tree):
+        return
+    made = [(function.name, ast.unparse(target), value) for function in functions(tree)
+            for target, value in assigned(function)]  # fmt: skip
+    text = ast.unparse(tree)
+    for name in {name for where, name, value in made if where == "__init__" and ast.unparse(value) in ("[]", "list()")}:
+        others = [where for where, other, _ in made if other == name and where != "__init__"]
+        shortened = any(f"{name}.{each}" in text for each in ("clear", "pop", "remove")) or f"del {name}" in text
+        if others or shortened or not name.startswith("self."):
+            continue
+        names = {name, *(other for _, other, value in made if ast.unparse(value) == name)}
+        for function in functions(tree):
+            for loop in (node for node in walk(function) if isinstance(node, ast.For) and _range_of(node)):
+                for call in (node for node in walk(loop) if isinstance(node, ast.Call)):
+                    grown, _, what = ast.unparse(call.func).rpartition(".")
+                    if what == "append" and grown in names and function.name != "__init__":
+                        yield (
+                            call.lineno,
+                            "nearest range",
+                            f"{ast.unparse(call)[:60]} adds to {name}, which still holds the rays of all scans before: "
+                            "nothing empties it, so begin each scan with an empty list",
+                        )
+                        return
+
+
 def _smallest_so_far(function: ast.FunctionDef) -> Iterator[tuple[str, ast.stmt]]:
     """Yield each name that keeps the smaller of itself and another value, and the statement that does it."""
     for node in walk(function):
@@ -217,4 +244,4 @@ def _bounds(node: ast.Compare) -> Iterator[tuple[ast.expr, bool, ast.expr]]:
             yield right, not more, left
 
 
-LOOKS = (kept_from_scan_to_scan, ends_at_the_first, last_one, left_out)
+LOOKS = (kept_from_scan_to_scan, list_of_all_scans, ends_at_the_first, last_one, left_out)

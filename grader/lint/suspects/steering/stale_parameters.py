@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.ros_parameters import (
     ASKS,
     MODULE,
@@ -20,6 +21,7 @@ from gz_course.grader.lint.ros_parameters import (
 )
 from gz_course.grader.lint.syntax import Suspect, assigned, calls, last_name, walk
 
+SLOW = 0.5  # [s] period of a timer that reads parameters too seldom
 TYPES = {float: "DOUBLE", int: "INTEGER", str: "STRING", bool: "BOOL"}
 TYPE = frozenset({*TYPES.values(), "DOUBLE_ARRAY", "INTEGER_ARRAY", "STRING_ARRAY", "BYTE_ARRAY"})
 
@@ -51,6 +53,26 @@ def stale(tree: ast.Module) -> Iterator[Suspect]:
             said = _once(where, name, line, inside)
         if said is not None:
             yield said[0], f"parameter {name}", said[1]
+        elif not heard and (slow := _seldom(tree, [(call, function) for call, function in where if call in later])):
+            yield slow[0], f"seldom {name}", slow[1]
+
+
+def _seldom(tree: ast.Module, later: list[tuple[ast.Call, str]]) -> tuple[int, str] | None:
+    """Find a parameter that nothing but a slow timer reads again."""
+    known, slow = named_numbers(tree), dict[str, float]()
+    for call, name in calls(tree):
+        given = {each.arg: each.value for each in call.keywords}
+        period = call.args[0] if call.args else given.get("timer_period_sec")
+        fired = call.args[1] if len(call.args) > 1 else given.get("callback")
+        if name == "create_timer" and period is not None and fired is not None:
+            slow[last_name(fired)] = number(period, known) or 0.0
+    if not later or any(slow.get(function, 0.0) < SLOW for _, function in later):
+        return None
+    call, function = later[0]
+    return call.lineno, (
+        f"{ast.unparse(call)[:60]} is read every {slow[function]:g} s only, by a timer, so a new value takes effect "
+        "late; read it in each callback of a scan"
+    )
 
 
 def _once(where: list[tuple[ast.Call, str]], name: str, line: int, inside: dict[int, str]) -> tuple[int, str]:

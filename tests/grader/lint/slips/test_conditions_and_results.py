@@ -160,3 +160,22 @@ def test_a_certain_mistake_is_named_and_the_right_form_is_not(words):
     wrong, right = SLIPS[words]
     assert any(words in place["said"] for place in slips(wrong.encode())), slips(wrong.encode())
     assert not any(words in place["said"] for place in slips(right.encode()))
+
+
+def test_a_call_after_and_whose_value_nobody_wants_is_not_found():
+    file = """
+class A:
+    def __init__(self):
+        self.create_timer(0.1, lambda: self.scan and self.answer(self.scan))
+
+    def on_scan(self, scan):
+        self.scan is None or self.answer(scan)
+
+    def answer(self, scan):
+        self.publisher.publish(scan)
+"""
+    assert slips(file.encode()) == []
+    assert (
+        "answer returns nothing"
+        in slips(file.replace("lambda: self.scan", "lambda: self.answer(1)").encode())[0]["said"]
+    )

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.lint.slips.geometry import filtered_rays, map_starts
+from gz_course.grader.lint.slips.geometry import filtered_rays, map_starts, sorted_rays
 
 STEP = "a = i * scan.angle_increment"
 ARRAY = "r = np.array(scan.ranges)"
@@ -45,6 +45,13 @@ def test_numbers_of_what_is_left_are_no_numbers_of_rays(lines):
 )
 def test_angles_of_all_rays_are_not_named(lines):
     assert found(filtered_rays, *lines) == []
+
+
+def test_a_place_among_masked_points_is_no_number_of_a_ray():
+    chosen = ("side = y > 0", "x, y = x[side], y[side]", "r = np.hypot(x, y)", "n = np.argmin(r)")
+    ((_, said),) = found(sorted_rays, *chosen, "a = scan.angle_min + n * scan.angle_increment")
+    assert "n is a place among those that side has left" in said
+    assert found(sorted_rays, *chosen, "a = np.arctan2(y[n], x[n])") == []
 
 
 SUBTRACTS = """

@@ -29,3 +29,8 @@ def limited(value, most, least):
 def test_exchanged_limits(code, words):
     said = [place["said"] for place in slips(FILE.format(code=code).encode())]
     assert len(said) == bool(words) and all(words in each for each in said), said
+
+
+def test_pi_that_is_divided_without_remainder_is_found():
+    (said,) = [each["said"] for each in slips(b"import math\nleft = -math.pi // 2\nright = math.pi / 2\n")]
+    assert said == "-math.pi // 2 is -2, because // rounds down: -math.pi / 2 is -1.57"

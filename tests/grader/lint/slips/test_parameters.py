@@ -102,3 +102,27 @@ def test_a_parameter_under_another_name_is_found_if_the_exercise_has_one_like_it
     (place,) = slips(content, names=("distance", "side"))
     assert place["line"] == 1 and "the task calls it side" in place["said"]
     assert slips(content, names=("distance", "rate")) == slips(content) == []
+
+
+def test_a_field_of_another_type_by_way_of_a_function_of_the_file():
+    file = """
+class A:
+    def __init__(self):
+        for name, default in {"distance": 0.6, "side": "left"}.items():
+            self.declare_parameter(name, default)
+
+    def asked(self, name):
+        return self.get_parameter(name).get_parameter_value()
+
+    def on_scan(self, scan):
+        return self.asked("distance").FIELD
+"""
+    (said,) = [each["said"] for each in slips(file.replace("FIELD", "integer_value").encode())]
+    assert "integer_value of the parameter distance is never set" in said
+    assert slips(file.replace("FIELD", "double_value").encode()) == []
+
+
+def test_a_parameter_that_is_set_over_what_was_given_is_found():
+    sets = "self.set_parameters([rclpy.parameter.Parameter('distance', value=0.6)])"
+    assert any("replaces the value that the node was started with" in each for each in said(init=sets))
+    assert not any("replaces the value" in each for each in said(init=sets.replace("value=0.6", "value=far")))

@@ -99,3 +99,37 @@ def test_flags(later, words):
     code = FILE.format(search=search).replace("self.distance = 0.6", "self.corner = False")
     said = [each["said"] for each in suspects(code.encode()) if each["about"] == "flag for ever"]
     assert len(said) == bool(words) and all(words in each for each in said), said
+
+
+def test_a_list_that_grows_from_scan_to_scan_is_found():
+    file = FILE.replace("self.best = math.inf", "self.near = []")
+    kept = LOOP + "self.near.append(r)\n        best = min(self.near)"
+    (said,) = [each["said"] for each in suspects(file.format(search=kept).encode())]
+    assert "adds to self.near, which still holds the rays of all scans before" in said
+    for start in ("self.near = []", "self.near.clear()"):
+        assert suspects(file.format(search=f"{start}\n        {kept}").encode()) == []
+
+
+ERROR = """\
+def on_scan(self, scan):
+    nearest = self.nearest(scan.ranges)
+    error = nearest - self.distance
+    command.angular.z = {rate}
+"""
+
+
+@pytest.mark.parametrize(
+    ("rate", "words"),
+    [
+        ("2.0 * int(error)", "is a whole number of metres"),
+        ("2.0 * round(nearest - self.distance)", "is a whole number of metres"),
+        ("2.0 / error", "divides by the error"),
+        ("self.gain / error", "divides by the error"),
+        ("2.0 * round(error, 2)", ""),
+        ("2.0 * (error - self.error) / 0.1", ""),
+        ("2.0 * error / self.distance", ""),
+    ],
+)
+def test_errors(rate, words):
+    said = [each["said"] for each in suspects(ERROR.format(rate=rate).encode())]
+    assert len(said) == bool(words) and all(words in each for each in said), said

@@ -89,3 +89,11 @@ def test_right_ways(changed):
 )
 def test_each_is_found(changed, words):
     assert any(about == "parameter distance" and words in said for about, said in found(**changed)), found(**changed)
+
+
+def test_a_parameter_that_only_a_slow_timer_reads_is_found():
+    timer = "self.create_timer(PERIOD, self.read)"
+    reads = f"{KEPT}\n\n    def read(self):\n        {READ}"
+    slow = found(init=f"{READ}\n        {timer.replace('PERIOD', '5.0')}", scan=reads)
+    assert slow[0][0] == "seldom distance" and "is read every 5 s only, by a timer" in slow[0][1]
+    assert found(init=f"{READ}\n        {timer.replace('PERIOD', '0.1')}", scan=reads) == []
