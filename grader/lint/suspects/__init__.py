@@ -19,6 +19,7 @@ from gz_course.grader.lint.suspects.actions import (
     phases,
     rare_feedback,
     tried_goals,
+    visits,
     waypoint_loops,
 )
 from gz_course.grader.lint.suspects.memory import (
@@ -57,6 +58,7 @@ from gz_course.grader.lint.suspects.steering import (
     drives,
     feedback,
     followers,
+    heading_formulas,
     headings,
     made_poses,
     sleeps,
@@ -72,6 +74,7 @@ from gz_course.grader.lint.syntax import Places, places_in
 
 LOOKS = (
     *headings.LOOKS,
+    *heading_formulas.LOOKS,
     *bias_while_turning.LOOKS,
     *gyroscopes.LOOKS,
     *bias_use.LOOKS,
@@ -101,6 +104,7 @@ LOOKS = (
     *drives.LOOKS,
     *hidden_errors.LOOKS,
     *ways.LOOKS,
+    *visits.LOOKS,
     *waypoint_loops.LOOKS,
     *ages.LOOKS,
     *every_nth.LOOKS,
