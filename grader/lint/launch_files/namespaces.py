@@ -81,4 +81,16 @@ def _topics(content: bytes) -> set[str]:
     return {text(each) for each in given} - {""}
 
 
-LOOKS = (pushed_without_group, groups_for_processes)
+def namespaces_in_the_environment(file: LaunchFile) -> Iterator[Place]:
+    """Find the variable that ROS 1 read for the namespace of a node."""
+    for node in file.nodes:
+        if text(node) == "ROS_NAMESPACE":
+            yield (
+                node.lineno,  # type: ignore[attr-defined]
+                "ROS_NAMESPACE is a variable of ROS 1, and no node of ROS 2 reads it: the namespace is namespace= of "
+                "Node, or --ros-args -r __ns:=/NAMESPACE in a command",
+            )
+            return
+
+
+LOOKS = (pushed_without_group, groups_for_processes, namespaces_in_the_environment)

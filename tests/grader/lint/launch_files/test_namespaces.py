@@ -65,3 +65,8 @@ def test_a_return_inside_of_the_loop():
     text = LAUNCH[: LAUNCH.index("def convoy")] + loop
     assert slips(text + "    return actions\n") == []
     assert "ends in its first iteration" in slips(text + "        return actions\n")[0]
+
+
+def test_a_namespace_in_the_environment():
+    given = LAUNCH.replace('executable="e"', 'executable="e", additional_env={"ROS_NAMESPACE": "/robot2"}')
+    assert any("ROS_NAMESPACE is a variable of ROS 1" in each for each in slips(given))
