@@ -17,6 +17,7 @@ from gz_course.grader.score.suspects import suspect
 GAP = 1.2  # [m]
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
+STEPS = 4  # speeds of a follower that sends nothing in between
 AT_REST = 0.3  # [m] that the gap may be off in the end
 OF_A_ROBOT = re.compile(r"/robot\d+/")
 NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
@@ -369,7 +370,8 @@ def keeps_together(recording, parameters):
                             "timers of its nodes never fire: it comes from Gazebo, [gz.msgs.Clock"
                         )
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reason = _stopped(recording, sent) or suspect(recording, "first_kept")
+        stepped = sent and len(np.unique(np.round(sent[0].linear, 2))) <= STEPS
+        reason = _stopped(recording, sent) or suspect(recording, "first_kept", *["whole_speed"] * bool(stepped))
         reason = reason or FITS["ORIGINS"]["sideways"](recording, name)
         reason = reason or (_reason(sent) if sent else "")
         reason += ROWS["added_up"](reason, names.index(name))
