@@ -91,7 +91,7 @@ def _handed(tree: ast.AST, function: ast.FunctionDef, place: int, name: str) -> 
         given = given or [each.value for each in call.keywords if each.arg == name]
         value = given[0] if given else None
         known = isinstance(value, ast.Constant) and isinstance(value.value, str)
-        found.append((value.value if known else None, call.lineno))  # type: ignore[union-attr, attr-defined]
+        found.append((value.value if known else None, call.lineno))  # type: ignore[union-attr]
     named = sum(1 for node in walk(tree) if last_name(node) == function.name)
     return found if seen and named == seen else [(None, function.lineno)]
 
