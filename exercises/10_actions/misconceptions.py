@@ -284,7 +284,26 @@ def ends_late(run, found, asked):
     if np.hypot(*(np.array(run.waypoints("cancelled")) - place).T).min() < 0.2:
         later += ", when the robot had come to a waypoint: goal_handle.is_cancel_requested is asked once per waypoint"
         return f"{why}: {later}, and not in the loop that drives"
-    return f"{why}: {later}, because goal_handle.is_cancel_requested is asked too seldom"
+    return f"{why}: {later}{_meanwhile(run, asked, found['at'])}"
+
+
+def _meanwhile(run, asked, ended):
+    """Return what was commanded between a cancellation and the end of the goal [s]; empty if that tells nothing."""
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    times = signal.times / 1e9
+    usual = np.diff(times[(times > asked - 2.0) & (times <= asked)])
+    between = (times > asked + 0.15) & (times < ended - 0.15)
+    speeds = signal.values[between]
+    if len(usual) and np.median(usual) > SLOW:
+        return ", because goal_handle.is_cancel_requested is asked too seldom"
+    if len(usual) and not len(speeds):
+        return (
+            f": no command came for {ended - asked:.1f} s, so the robot obeyed the old one; publish the Twist of zeros "
+            "first, before you wait for anything"
+        )
+    if len(speeds) > 3 and (np.diff(speeds) <= 0).all() and speeds[-1] < 0.5 * speeds[0]:
+        return ", and it brakes little by little: the robot must stand within half a second"
+    return ""
 
 
 def drives_on(run, speeds):

@@ -229,12 +229,12 @@ def listens_to_the_one_in_front(recording, parameters):
     for front, name in itertools.pairwise(names):
         node = f"/{name}/follower"
         if node not in nodes:
-            others = sorted(each for each in nodes if each.endswith("follower"))
+            others = named = sorted(each for each in nodes if each.endswith("follower"))
             others = others or sorted(each for each in nodes if each.startswith(f"/{name}/"))
             why = f"the name of the node is to be follower, in the namespace /{name}" if others else ""
             if all(each.endswith("/follower") for each in others):
                 why = ""
-            if len(names) > 2 and len(others) < len(names) - 1:
+            if named and len(names) > 2 and len(named) < len(names) - 1:
                 why = ENDS["one_name_for_several"](ENDS["started"](recording), others) or why
                 why = why or ENDS["missing"](name, names, others)
             if "/follower" in others:
@@ -372,7 +372,7 @@ def keeps_together(recording, parameters):
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
         stepped = sent and len(np.unique(np.round(sent[0].linear, 2))) <= STEPS
         reason = _stopped(recording, sent) or suspect(recording, "first_kept", *["whole_speed"] * bool(stepped))
-        reason = reason or FITS["ORIGINS"]["sideways"](recording, name)
+        reason = reason or _few(recording, name) or FITS["ORIGINS"]["sideways"](recording, name)
         reason = reason or (_reason(sent) if sent else "")
         reason += ROWS["added_up"](reason, names.index(name))
         if HEADING in reason:
