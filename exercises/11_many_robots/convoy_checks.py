@@ -14,7 +14,6 @@ from gz_course.grader.score.launch_errors import launch_meaning
 from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
 from gz_course.grader.score.suspects import suspect
 
-GAP = 1.2  # [m]
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
 STEPS = 4  # speeds of a follower that sends nothing in between
@@ -28,7 +27,7 @@ DRIVES, HEARS = "cmd_vel", "odom"
 ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
 _few, _too_seldom = ENDS["few"], ENDS["too_seldom"]
 ROWS = runpy.run_path(str(Path(__file__).with_name("convoy_rows.py")))
-ROW, _misplaced = ROWS["ROW"], ROWS["misplaced"]
+GAP, ROW, _misplaced = ROWS["GAP"], ROWS["ROW"], ROWS["misplaced"]
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 

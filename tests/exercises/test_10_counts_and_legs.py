@@ -90,3 +90,23 @@ def test_a_second_goal_that_waits_is_named_with_its_line():
     patrol.events += [(2.0, "sent", "second", {"waypoints": POINTS, "speed": 0.2}), (2.0, "accepted", "second", {})]
     patrol.facts = lambda: {"suspects": [{"line": 7, "about": "queued", "said": "a goal waits here"}]}
     assert "which it must reject; line 7: a goal waits here" in found("busy", patrol).explanation
+
+
+def braked(speeds, until=4.9):
+    """Return the finding on a patrol that is cancelled at 4 s, with commands of these speeds [m/s] from then on."""
+    patrol = Patrol([[1.2, 0.0], [1.2, 2.0]])
+    patrol.end = until
+    times = np.concatenate((np.arange(1.0, 4.05, 0.1), 4.1 + 0.1 * np.arange(len(speeds))))
+    sent, signal = np.concatenate((np.full(31, 0.3), speeds)), patrol.signal
+
+    def commanded(name):
+        return type(signal(name))(np.round(times * 1e9).astype(np.int64), sent) if "cmd_vel" in name else signal(name)
+
+    patrol.signal = commanded
+    return cancelled(patrol, visited=1).explanation
+
+
+def test_why_a_cancelled_robot_stops_late_is_seen():
+    assert "it brakes little by little" in braked(np.linspace(0.3, 0.0, 8))
+    assert "no command came for 0.9 s, so the robot obeyed the old one" in braked([])
+    assert "too seldom" not in braked(np.full(8, 0.3))
