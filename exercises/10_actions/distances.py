@@ -83,7 +83,7 @@ def other_feedback(run, said, points):
     yield "how far it is to the waypoint before, or always to the first one", to(index - 1)
     yield "the whole way that is left, over all waypoints", to(index) + [following[i:].sum() for i in index.clip(0)]
     yield "the square of how far it is: the square root is missing", to(index) ** 2
-    yield "the sum of the distances along x and y; it should be hypot(dx, dy)", np.abs(here).sum(axis=1)
+    yield "the sum of the distances along x and y, and not hypot(dx, dy)", np.abs(here).sum(axis=1)
     yield "how far it is along x alone", np.abs(here[:, 0])
     yield "how far it is along y alone", np.abs(here[:, 1])
     yield "how far it is in centimetres", 100 * to(index)

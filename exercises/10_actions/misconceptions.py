@@ -11,6 +11,7 @@ from gz_course.grader.score.suspects import suspect
 BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearings.py"))))
 DISTANCES = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("distances.py"))))
 LEGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("legs.py"))))
+AT_ONE = 0.2  # [m] from a waypoint
 SLOW = 0.5  # [s] between two commands
 LONG = 4.0  # [s] without a new command
 NEAR = 0.17  # [m]
@@ -275,16 +276,18 @@ def ends_late(run, found, asked):
             f"{why}, away from its waypoints, to ({last[0]:.1f}, {last[1]:.1f}): it must stop at once, where it is, "
             "and end the goal there"
         )
-    if said := suspect(run.recording, "cancel"):
+    arrived = left[1] < AT_ONE
+    ended = found is not None and found["status"] == "CANCELED" and not arrived
+    meanwhile = _meanwhile(run, asked, found["at"]) if ended else ""
+    if not meanwhile and (said := suspect(run.recording, "cancel")):
         return f"{why}: {said}"
     if found is None or found["status"] != "CANCELED":
         return f"{why}: the loop never asks goal_handle.is_cancel_requested while it drives"
     later = f"the goal ended as CANCELED {found['at'] - asked:.1f} s after it was cancelled"
-    place = run.way[np.searchsorted(run.times, found["at"]).clip(0, len(run.times) - 1)]
-    if np.hypot(*(np.array(run.waypoints("cancelled")) - place).T).min() < 0.2:
+    if arrived:
         later += ", when the robot had come to a waypoint: goal_handle.is_cancel_requested is asked once per waypoint"
         return f"{why}: {later}, and not in the loop that drives"
-    return f"{why}: {later}{_meanwhile(run, asked, found['at'])}"
+    return f"{why}: {later}{meanwhile}"
 
 
 def _meanwhile(run, asked, ended):
