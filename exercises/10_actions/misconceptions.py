@@ -137,7 +137,8 @@ def stood(run, chosen):
     turned = np.abs(run.angular.values[chosen]).max(initial=0.0)
     commands = run.recording.signal("topics/cmd_vel/linear/x")
     if not len(commands):
-        return "No command came on /cmd_vel while the patrol was under way: execute did not come to a publish()"
+        said = suspect(run.recording, "hidden") or "execute did not come to a publish()"
+        return f"No command came on /cmd_vel while the patrol was under way: {said}"
     if turned > 0.2:
         return suspect(run.recording, "heading", "angle") or (
             "The robot turned on the spot and never drove: your server never finds that it faces the waypoint, so its "

@@ -282,10 +282,11 @@ def endless(run):
             "The robot has been at all waypoints, but no result came until the end of the run, and commands still "
             "come: the loop in execute goes on"
         )
-    return still_driving(run, "patrol") or (
-        "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
-        "Patrol.Result (a function without return returns None, which is no result)"
+    why = suspect(run.recording, "unsent_result") or (
+        "execute must call goal_handle.succeed() and return a Patrol.Result (a function without return returns None, "
+        "which is no result)"
     )
+    return still_driving(run, "patrol") or f"The patrol was driven to its end, but no result came: {why}"
 
 
 def result(recording, parameters):

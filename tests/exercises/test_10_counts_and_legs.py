@@ -110,3 +110,10 @@ def test_why_a_cancelled_robot_stops_late_is_seen():
     assert "it brakes little by little" in braked(np.linspace(0.3, 0.0, 8))
     assert "no command came for 0.9 s, so the robot obeyed the old one" in braked([])
     assert "too seldom" not in braked(np.full(8, 0.3))
+
+
+def test_a_result_that_cannot_be_sent():
+    patrol = Patrol(status="").feedback(np.hypot)
+    patrol.facts = lambda: {"suspects": [{"line": 7, "about": "unsent_result", "said": "so it is"}]}
+    patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"][: round(patrol.end / STEP)]
+    assert "no result came: line 7: so it is" in found("result", patrol).explanation

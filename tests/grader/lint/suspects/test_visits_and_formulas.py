@@ -96,3 +96,9 @@ def test_a_cancel_callback_that_refuses():
     refusing += "\n    def answer(self, handle):\n        return CancelResponse.ANSWER\n"
     assert not said(refusing.replace("ANSWER", "ACCEPT"), "refuses_cancel")
     assert "in answer refuses" in said(refusing.replace("ANSWER", "REJECT"), "refuses_cancel")[0]
+
+
+def test_a_count_that_is_a_float():
+    assert not said(RIGHT, "unsent_result")
+    broken = RIGHT.replace(CANCELLED, CANCELLED.replace("=visited", "=float(visited)"))
+    assert "the field visited is an int32" in said(broken, "unsent_result")[0]
