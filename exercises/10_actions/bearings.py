@@ -53,6 +53,8 @@ def wrong_bearing(run, chosen, points):
     way, yaw, speed, rate = (each[chosen] for each in (run.way, run.heading, run.linear.values, run.angular.values))
     missed, after = _missed(way, points)
     there = missed - way[after:]
+    if words := _one_sided(run, _wrapped(np.arctan2(there[:, 1], there[:, 0]) - yaw[after:])):
+        return words
     if words := _turned_past(np.arctan2(there[:, 1], there[:, 0]), yaw[after:], speed[after:], rate[after:]):
         return words
     driven = np.cumsum(np.hypot(*np.diff(way[after:], axis=0, prepend=way[after : after + 1]).T))
@@ -110,6 +112,20 @@ def driven_past(run, chosen, points):
         f"The robot drives straight past the waypoint, {left[nearest]:.2f} m beside it: angular.z is 0 while it "
         "drives, so the error that is left when it sets off is never corrected"
     )
+
+
+def _one_sided(run, error):
+    """Find out whether all turns of a run are to one side, where the waypoint is on the other."""
+    sent = run.recording.signal("topics/cmd_vel/angular/z").values
+    if len(sent) < FEWEST or np.abs(sent).max() < TURNS:
+        return ""
+    for sign, never, side in ((1, "negative", "right"), (-1, "positive", "left")):
+        if (sign * sent >= 0).all() and np.mean((sign * error < -FACES) & (sign * error > FACES - np.pi)) > 0.5:
+            return (
+                f"The robot never turns to the {side}, where its waypoint is: angular.z is never {never}, as with a "
+                "limit of 0 on one side, or abs()"
+            )
+    return ""
 
 
 def _turned_past(direction, yaw, speed, rate):

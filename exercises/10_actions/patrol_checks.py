@@ -339,8 +339,8 @@ def busy(recording, parameters):
     found = run.one("result", "again")
     if found is None:
         measured = "the patrol after the cancelled one did not end"
-        why = still_driving(run, "again") or LATER.of_a_later_goal(run) or MISCONCEPTIONS.bearing_of(run, "again")
-        return Finding(False, expected, measured, run.end, explanation=why)
+        why = still_driving(run, "again") or LATER.leftover(run) or LATER.of_a_later_goal(run)
+        return Finding(False, expected, measured, run.end, explanation=why or MISCONCEPTIONS.bearing_of(run, "again"))
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"
     why = "" if passed else LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "again")

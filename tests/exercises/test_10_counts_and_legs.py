@@ -113,7 +113,32 @@ def test_why_a_cancelled_robot_stops_late_is_seen():
 
 
 def test_a_result_that_cannot_be_sent():
-    patrol = Patrol(status="").feedback(np.hypot)
+    patrol = Patrol(status="")
     patrol.facts = lambda: {"suspects": [{"line": 7, "about": "unsent_result", "said": "so it is"}]}
     patrol.signals["topics/cmd_vel/linear/x"] = patrol.signals["topics/cmd_vel/linear/x"][: round(patrol.end / STEP)]
     assert "no result came: line 7: so it is" in found("result", patrol).explanation
+
+
+def test_a_robot_that_turns_to_one_side_only():
+    patrol = Patrol([[1.2, 0.0], [1.2, 0.0001]], status="")
+    patrol.times = np.arange(200) * STEP
+    rest = 200 - len(patrol.way)
+    patrol.signals = {name: np.append(values, np.full(rest, values[-1])) for name, values in patrol.signals.items()}
+    patrol.signals["truth/robot/yaw"][-150:] = 2.6
+    patrol.signals["topics/cmd_vel/angular/z"] = np.where(patrol.times > 2.0, 0.3, 0.0)
+    assert "angular.z is never negative" in found("visits", patrol).explanation
+
+
+def test_a_patrol_that_begins_with_the_speed_of_the_one_before():
+    patrol = Patrol(speed=0.3)
+    patrol.events = [
+        (0.1, "interface", "", {"fault": ""}),
+        (0.2, "sent", "patrol", {"waypoints": POINTS, "speed": 0.4}),
+        (0.3, "accepted", "patrol", {}),
+        (0.9, "result", "patrol", {"status": "SUCCEEDED", "visited": 2}),
+        (0.95, "sent", "cancelled", {"waypoints": POINTS, "speed": 0.3}),
+        (1.0, "accepted", "cancelled", {}),
+    ]
+    for name in ("topics/cmd_vel/linear/x", "truth/robot/linear_x"):
+        patrol.signals[name][:24] = 0.4
+    assert "begins a patrol with the speed of the one before, 0.40 m/s" in found("speed", patrol).explanation
