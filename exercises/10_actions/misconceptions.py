@@ -271,41 +271,45 @@ def ends_late(run, found, asked):
     why = "Your server accepts the cancellation and drives on"
     last = run.way[np.searchsorted(run.times, found["at"] if found else run.end).clip(0, len(run.times) - 1)]
     begun = run.way[np.searchsorted(run.times, asked).clip(0, len(run.times) - 1)]
-    left = [float(np.hypot(*(np.array(run.waypoints("cancelled")) - each).T).min()) for each in (begun, last)]
+    to_each = [np.hypot(*(np.array(run.waypoints("cancelled")) - each).T) for each in (begun, last)]
+    left = [float(each.min()) for each in to_each]
     if left[1] > left[0] + STAYS:
         return (
             f"{why}, away from its waypoints, to ({last[0]:.1f}, {last[1]:.1f}): it must stop at once, where it is, "
             "and end the goal there"
         )
-    arrived = left[1] < AT_ONE
-    ended = found is not None and found["status"] == "CANCELED" and not arrived
-    meanwhile = _meanwhile(run, asked, found["at"]) if ended else ""
+    arrived = bool(((to_each[1] < AT_ONE) & (to_each[1] < to_each[0] - MOVED)).any())
+    ended = found is not None and found["status"] == "CANCELED"
+    meanwhile = _meanwhile(run, asked, found["at"], arrived) if ended else ""
     if not meanwhile and (said := suspect(run.recording, "cancel")):
         return f"{why}: {said}"
     if found is None or found["status"] != "CANCELED":
         return f"{why}: the loop never asks goal_handle.is_cancel_requested while it drives"
     later = f"the goal ended as CANCELED {found['at'] - asked:.1f} s after it was cancelled"
-    if arrived:
+    if arrived and not meanwhile:
         later += ", when the robot had come to a waypoint: goal_handle.is_cancel_requested is asked once per waypoint"
         return f"{why}: {later}, and not in the loop that drives"
     return f"{why}: {later}{meanwhile}"
 
 
-def _meanwhile(run, asked, ended):
-    """Return what was commanded between a cancellation and the end of the goal [s]; empty if that tells nothing."""
+def _meanwhile(run, asked, ended, arrived):
+    """Return what was commanded between a cancellation and the end of the goal [s]; empty if that tells nothing.
+
+    Who has `arrived` at a waypoint then slows down there anyway.
+    """
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     times = signal.times / 1e9
     usual = np.diff(times[(times > asked - 2.0) & (times <= asked)])
     between = (times > asked + 0.15) & (times < ended - 0.15)
     speeds = signal.values[between]
-    if len(usual) and np.median(usual) > SLOW:
+    if not arrived and len(usual) and np.median(usual) > SLOW:
         return ", because goal_handle.is_cancel_requested is asked too seldom"
     if len(usual) and not len(speeds):
         return (
             f": no command came for {ended - asked:.1f} s, so the robot obeyed the old one; publish the Twist of zeros "
             "first, before you wait for anything"
         )
-    if len(speeds) > 3 and (np.diff(speeds) <= 0).all() and speeds[-1] < 0.5 * speeds[0]:
+    if not arrived and len(speeds) > 3 and (np.diff(speeds) <= 0).all() and speeds[-1] < 0.5 * speeds[0]:
         return ", and it brakes little by little: the robot must stand within half a second"
     return ""
 

@@ -88,9 +88,11 @@ def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a timer that is cancelled in its own callback, and never begins again."""
-    if called(tree) & {"reset"}:
+    """Find a timer that is cancelled in its own callback where a distance is small, and never begins again."""
+    if called(tree) & {"reset"} or "create_subscription" not in called(tree):
         return
+    near = [each for each in walk(tree) if isinstance(each, ast.If) and LESS.search(ast.unparse(each.test))]
+    under = {id(node) for each in near for part in each.body for node in walk(part)}
     for target, value in assigned(tree):
         if not isinstance(value, ast.Call) or last_name(value.func) != "create_timer":
             continue
@@ -98,7 +100,7 @@ def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
         for function in (each for each in functions(tree) if each.name == callback):
             for call, name in calls(function):
                 ends = name == "cancel" and ast.unparse(call.func) == f"{timer}.cancel"
-                if ends or (name == "destroy_timer" and timer in map(ast.unparse, call.args)):
+                if id(call) in under and (ends or (name == "destroy_timer" and timer in map(ast.unparse, call.args))):
                     yield (
                         call.lineno,
                         "silenced",

@@ -8,6 +8,7 @@ NODE = """\
 class Follower(Node):
     def __init__(self):
         self.poses = {}
+        self.create_subscription(Odometry, "odom", self.heard, 10)
         self.timer = self.create_timer(0.1, self.steer)
 
     def heard(self, who, message):
