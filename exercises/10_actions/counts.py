@@ -10,6 +10,8 @@ BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 def of_a_cancelled(run, found, counts):
     """Return why `visited` of the cancelled patrol is wrong; `counts` are those that are right."""
     visited, fewest = found["visited"], min(counts)
+    if _elsewhere(run):
+        return ""  # what it counts are other places
     said = suspect(run.recording, "counted") if visited > max(counts) else ""
     goes_on = next(filter(None, (counts_on(run, found, count) for count in sorted(counts))), "")
     if goes_on and not said:
@@ -30,6 +32,14 @@ def of_a_cancelled(run, found, counts):
             "the robot has come to it"
         )
     return f"visited is {visited}, but the robot had been at {been}"
+
+
+def _elsewhere(run):
+    """Return whether the first patrol was driven, and not to its waypoints."""
+    start, end = run.period("patrol")
+    way = run.way[(run.times >= start) & (run.times <= end)]
+    driven = float(np.hypot(*np.diff(way, axis=0).T).sum()) if len(way) > 1 else 0.0
+    return driven > 0.5 and run.nearest("patrol", end)[0] < len(run.waypoints("patrol"))
 
 
 def counts_on(run, found, count):

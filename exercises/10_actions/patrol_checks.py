@@ -392,9 +392,9 @@ def cancel(recording, parameters):
     why = ""
     if found["status"] != "CANCELED":
         called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
-        why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
-        if said := suspect(recording, "cancel"):
-            why = f"The cancelled goal ended as {found['status']}: {said}"
+        said = suspect(recording, "cancel") or f"{called} where goal_handle.canceled() belongs"
+        why = f"The cancelled goal ended as {found['status']}: {said}"
     elif found["visited"] not in counts:
         why = LATER.of_a_later_goal(run) or COUNTS.of_a_cancelled(run, found, counts)
-    return Finding(not why, expected, measured, found["at"], explanation=why)
+    passed = found["status"] == "CANCELED" and found["visited"] in counts
+    return Finding(passed, expected, measured, found["at"], explanation=why)

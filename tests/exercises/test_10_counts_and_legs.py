@@ -142,3 +142,24 @@ def test_a_patrol_that_begins_with_the_speed_of_the_one_before():
     for name in ("topics/cmd_vel/linear/x", "truth/robot/linear_x"):
         patrol.signals[name][:24] = 0.4
     assert "begins a patrol with the speed of the one before, 0.40 m/s" in found("speed", patrol).explanation
+
+
+def test_a_server_that_counts_other_places_is_not_told_to_count_otherwise():
+    patrol = Patrol([[0.2, 0.0], [0.2, 1.5]])
+    patrol.events[1:3] = []
+    patrol.events += [
+        (0.9, "sent", "cancelled", {"waypoints": POINTS, "speed": 0.4}),
+        (1.0, "accepted", "cancelled", {}),
+    ]
+    patrol.events += [
+        (0.2, "sent", "patrol", {"waypoints": [[3.0, 0.0]], "speed": 0.4}),
+        (0.3, "accepted", "patrol", {}),
+    ]
+    patrol.events = [each for each in patrol.events if each[1] != "result" and each[:2] != (patrol.end + 0.5, "sent")]
+    patrol.events += [
+        (3.0, "result", "patrol", {"status": "SUCCEEDED", "visited": 1}),
+        (4.0, "cancel", "cancelled", {}),
+    ]
+    patrol.events.append((patrol.end, "result", "cancelled", {"status": "CANCELED", "visited": 1}))
+    finding = found("cancel", patrol)
+    assert not finding.passed and "a waypoint counts when" not in finding.explanation, finding
