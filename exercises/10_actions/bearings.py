@@ -53,7 +53,9 @@ def wrong_bearing(run, chosen, points):
     way, yaw, speed, rate = (each[chosen] for each in (run.way, run.heading, run.linear.values, run.angular.values))
     missed, after = _missed(way, points)
     there = missed - way[after:]
-    if words := _turned_past(_wrapped(np.arctan2(there[:, 1], there[:, 0]) - yaw[after:]), speed[after:]):
+    if words := _one_sided(run, _wrapped(np.arctan2(there[:, 1], there[:, 0]) - yaw[after:])):
+        return words
+    if words := _turned_past(np.arctan2(there[:, 1], there[:, 0]), yaw[after:], speed[after:], rate[after:]):
         return words
     driven = np.cumsum(np.hypot(*np.diff(way[after:], axis=0, prepend=way[after : after + 1]).T))
     part = slice(after, min(_blocked(way), after + int(np.sum(driven < ENOUGH))))
@@ -112,17 +114,37 @@ def driven_past(run, chosen, points):
     )
 
 
-def _turned_past(error, speed):
+def _one_sided(run, error):
+    """Find out whether all turns of a run are to one side, where the waypoint is on the other."""
+    sent = run.recording.signal("topics/cmd_vel/angular/z").values
+    if len(sent) < FEWEST or np.abs(sent).max() < TURNS:
+        return ""
+    for sign, never, side in ((1, "negative", "right"), (-1, "positive", "left")):
+        if (sign * sent >= 0).all() and np.mean((sign * error < -FACES) & (sign * error > FACES - np.pi)) > 0.5:
+            return (
+                f"The robot never turns to the {side}, where its waypoint is: angular.z is never {never}, as with a "
+                "limit of 0 on one side, or abs()"
+            )
+    return ""
+
+
+def _turned_past(direction, yaw, speed, rate):
     """Find out whether a robot turns on over the direction of the waypoint and does not drive there."""
+    error = _wrapped(direction - yaw)
     ahead = np.flatnonzero(np.abs(error) < 0.1)
     if not len(ahead) or (speed[ahead[0] :] > DRIVES).any() or (np.abs(error[: ahead[0]]) < ASIDE / 2).all():
         return ""
     if np.abs(error[ahead[0] :]).max() < ASIDE / 2:
         return ""
-    return (
-        "The robot turned past the waypoint, which was ahead of it, and did not drive: its heading, or the direction "
-        "to the waypoint, atan2(dy, dx), is wrong"
-    )
+    turning = np.abs(rate) > 0.1
+    fits = {
+        words: float(np.mean(np.sign(rate[turning]) == np.sign(_wrapped(direction - taken(yaw))[turning])))
+        for words, taken in HEADINGS.items()
+    }
+    first, second = sorted(fits, key=fits.__getitem__)[:-3:-1]
+    sure = turning.sum() >= FEWEST and fits[first] > 0.95 and fits[second] < 0.85
+    why = first if sure else "its heading, or the direction to the waypoint, atan2(dy, dx), is wrong"
+    return f"The robot turned past the waypoint, which was ahead of it, and did not drive: {why}"
 
 
 def _blocked(way):

@@ -56,23 +56,36 @@ def on_its_way(run, at):
 def leftover(run):
     """Return that the patrol after the cancelled one drives to a waypoint of that one first; empty if it does not."""
     found, cancelled = run.one("result", "again"), run.one("result", "cancelled")
-    if found is None or cancelled is None:
+    if run.one("accepted", "again") is None or cancelled is None:
         return ""
     start, end = run.period("again")
     way = run.way[(run.times >= start) & (run.times <= end)]
     before = run.way[run.times <= cancelled["at"]]
-    for point in map(np.array, run.waypoints("cancelled")):
-        if not len(way) or np.hypot(*(before - point).T).min() <= THERE:
+    others = [("cancelled", point) for point in run.waypoints("cancelled")]
+    if found is None:  # it goes somewhere: all the way of the first patrol is no chance
+        others = [("first", run.waypoints("patrol")[0])] if _all_reached(way, run.waypoints("patrol")) else []
+    for which, point in others:
+        if not len(way) or (found is not None and np.hypot(*(before - point).T).min() <= THERE):
             continue
         ends = np.array([way[0], *run.waypoints("again")], dtype=float)
         if np.hypot(*(way - point).T).min() < THERE and _beside(point, ends) > 2 * THERE:
             said = suspect(run.recording, "anew", "kept_list")
             where = ", ".join(f"{value:g}" for value in point)
             return (
-                f"The patrol after the cancelled one drives to ({where}), which is a waypoint of the cancelled one: "
+                f"The patrol after the cancelled one drives to ({where}), which is a waypoint of the {which} one: "
                 f"{said or 'what was kept of that one has to be emptied where the next begins'}"
             )
     return ""
+
+
+def _all_reached(way, points):
+    """Return whether a way (n, 2) leads to all of several points, in their order."""
+    for point in points:
+        left = np.hypot(*(way - np.array(point)).T) if len(way) else np.array([np.inf])
+        if left.min() > THERE:
+            return False
+        way = way[int(np.argmax(left <= THERE)) :]
+    return len(points) > 1
 
 
 def _beside(point, corners):

@@ -9,10 +9,14 @@ import numpy as np
 from gz_course.grader.score.suspects import suspect
 
 BEARINGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("bearings.py"))))
+DISTANCES = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("distances.py"))))
+LEGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("legs.py"))))
+AT_ONE = 0.2  # [m] from a waypoint
+SLOW = 0.5  # [s] between two commands
 LONG = 4.0  # [s] without a new command
+NEAR = 0.17  # [m]
 THERE = 0.13  # [m] from a waypoint
 MOVED = 0.1  # [m] a robot that moved less stood
-BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 TOO_FAST = 1.4  # times the speed of the goal
 STAYS = 0.4  # [m] from the last place
 
@@ -41,6 +45,7 @@ def went_elsewhere(run, goal, until):
         return words
     return (
         blind(run, goal)
+        or DISTANCES.believed(run, goal)
         or stays(run, goal)
         or BEARINGS.driven_past(run, chosen, points)
         or BEARINGS.wrong_bearing(run, chosen, points)
@@ -77,6 +82,12 @@ def old_commands(run, goal, until):
             f"Your server sent {'1 command' if sent == 1 else f'{sent} commands'} in {until - start:.0f} s: a command "
             "that is computed once for each waypoint never changes; compute and publish it in each step of the loop"
         )
+    pauses = np.diff(times[(times >= start) & (times <= until)])
+    if len(pauses) > 3 and np.median(pauses) > SLOW:
+        return (
+            f"Your server sends a command every {np.median(pauses):.1f} s only, and the robot obeys each of them until "
+            "the next one comes, so it turns and drives past its waypoint: wait 0.1 s or less in the loop"
+        )
     return ""
 
 
@@ -98,6 +109,14 @@ def other_places(way, points):
         stays = np.hypot(*(way[-1] - places[-1])) < STAYS  # who drives on does not take that place for the last one
         if stays and not np.allclose(places, points) and _reaches(way, places):
             return words
+    for how, whole in (
+        ("rounded to whole metres, as by round()", np.round),
+        ("cut to whole metres, as by int()", np.trunc),
+    ):
+        places = whole(points)  # often near the right ones, or on the way to them
+        near = [np.hypot(*(way - point).T).min() < NEAR for point in points[np.abs(places - points).max(axis=1) > NEAR]]
+        if near and not any(near) and np.hypot(*(way[-1] - places[-1])) < THERE and _reaches(way, places):
+            return f"the coordinates of the waypoints are {how}"
     return ""
 
 
@@ -118,7 +137,8 @@ def stood(run, chosen):
     turned = np.abs(run.angular.values[chosen]).max(initial=0.0)
     commands = run.recording.signal("topics/cmd_vel/linear/x")
     if not len(commands):
-        return "No command came on /cmd_vel while the patrol was under way: execute did not come to a publish()"
+        said = suspect(run.recording, "hidden") or "execute did not come to a publish()"
+        return f"No command came on /cmd_vel while the patrol was under way: {said}"
     if turned > 0.2:
         return suspect(run.recording, "heading", "angle") or (
             "The robot turned on the spot and never drove: your server never finds that it faces the waypoint, so its "
@@ -216,9 +236,11 @@ def reached_early(run, goal):
     if words := other_places(way, np.array(points)):
         return f"The robot went elsewhere: {words}"
     near = [float(np.hypot(*(way - point).T).min()) for point in points]
+    if words := LEGS.left_by_time(run):
+        return words
     if words := axis or last_only(run, goal, way, np.array(points)):
         return words
-    if max(near) < 0.6 and (words := by_reckoning(run, goal)):
+    if max(near) < 0.6 and (words := DISTANCES.by_reckoning(run, goal)):
         return words
     if max(near) < 0.6:
         return (
@@ -229,58 +251,67 @@ def reached_early(run, goal):
         why = suspect(run.recording, "left_early", "left_out")
         if not why and any(each["waypoint"] == len(points) - 1 for each in run.all("feedback", goal)):
             why = "its index goes on to the last one and the robot does not: drive to the waypoint with that index"
-        why = why or "the loop over the waypoints has to go on until the last one"
+        why = why or (
+            "the loop over the waypoints has to go on until the last one, and what says that one is reached must be "
+            "set back for the next"
+        )
         return f"The patrol ended as {found['status']} after the first waypoint: {why}"
     return ""
 
 
-def by_reckoning(run, goal):
-    """Find out whether the distances of the feedback go to 0 without the robot, and what they are instead."""
-    said, points = run.all("feedback", goal), np.array(run.waypoints(goal), dtype=float)
-    said = [each for each in said if 0 <= each["waypoint"] < len(points)]
-    if len(said) < 5:
-        return ""
-    for words, values in other_feedback(run, said, points.tolist()):
-        given = np.array([each["distance"] for each in said])
-        if np.mean(np.abs(values - given) <= 0.05 * max(1.0, np.abs(given).max() / 4)) >= 0.9 and np.ptp(given) > 0.3:
-            return f"A waypoint counts as reached where the robot is not: the distance of your server is {words}"
-    way = run.way[np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)]
-    index, given = np.array([each["waypoint"] for each in said]), np.array([each["distance"] for each in said])
-    left = np.hypot(*(way - points[index]).T)
-    lasts = [np.flatnonzero(index == each)[-1] for each in set(index.tolist())]
-    if all(given[i] < 0.2 for i in lasts) and max(left[i] - given[i] for i in lasts) > 0.1:
-        return (
-            f"Your server takes a waypoint for reached that is still {max(left[i] for i in lasts):.2f} m away, where "
-            f"its own distance says {min(given[i] for i in lasts):.2f} m: either its distance is computed wrongly, or "
-            "it counts time or steps, and does not look where /odom says that the robot is"
-        )
-    return ""
+def after_cancel(run, since, until):
+    """Return the largest speed [m/s] and turning rate [rad/s] between two times [s], before another goal is sent."""
+    until = min([until, *(each["at"] for each in run.events if each["event"] == "sent" and each["at"] > since)])
+    window = (run.times >= since) & (run.times <= until)
+    return tuple(float(np.max(np.abs(each[window]), initial=0.0)) for each in (run.linear.values, run.angular.values))
 
 
 def ends_late(run, found, asked):
     """Return why a robot drives on that was cancelled at a time `asked` [s]; `found` is the result, or None."""
     why = "Your server accepts the cancellation and drives on"
-    if said := suspect(run.recording, "cancel"):
+    last = run.way[np.searchsorted(run.times, found["at"] if found else run.end).clip(0, len(run.times) - 1)]
+    begun = run.way[np.searchsorted(run.times, asked).clip(0, len(run.times) - 1)]
+    to_each = [np.hypot(*(np.array(run.waypoints("cancelled")) - each).T) for each in (begun, last)]
+    left = [float(each.min()) for each in to_each]
+    if left[1] > left[0] + STAYS:
+        return (
+            f"{why}, away from its waypoints, to ({last[0]:.1f}, {last[1]:.1f}): it must stop at once, where it is, "
+            "and end the goal there"
+        )
+    arrived = bool(((to_each[1] < AT_ONE) & (to_each[1] < to_each[0] - MOVED)).any())
+    ended = found is not None and found["status"] == "CANCELED"
+    meanwhile = _meanwhile(run, asked, found["at"], arrived) if ended else ""
+    if not meanwhile and (said := suspect(run.recording, "cancel")):
         return f"{why}: {said}"
     if found is None or found["status"] != "CANCELED":
         return f"{why}: the loop never asks goal_handle.is_cancel_requested while it drives"
     later = f"the goal ended as CANCELED {found['at'] - asked:.1f} s after it was cancelled"
-    place = run.way[np.searchsorted(run.times, found["at"]).clip(0, len(run.times) - 1)]
-    if np.hypot(*(np.array(run.waypoints("cancelled")) - place).T).min() < 0.2:
+    if arrived and not meanwhile:
         later += ", when the robot had come to a waypoint: goal_handle.is_cancel_requested is asked once per waypoint"
         return f"{why}: {later}, and not in the loop that drives"
-    return f"{why}: {later}, because goal_handle.is_cancel_requested is asked too seldom"
+    return f"{why}: {later}{meanwhile}"
 
 
-def counts_on(run, found, count):
-    """Find out whether `visited` of the cancelled patrol goes on from the patrol before; `count` is the right one."""
-    before = run.one("result", "patrol")
-    if before is None or not before["visited"] or found["visited"] != before["visited"] + count:
-        return ""
-    return (
-        f"visited is {found['visited']}: the {before['visited']} of the patrol before and {count} of this one, because "
-        f"the count goes on from goal to goal. {suspect(run.recording, 'result') or BEGIN_ANEW}"
-    )
+def _meanwhile(run, asked, ended, arrived):
+    """Return what was commanded between a cancellation and the end of the goal [s]; empty if that tells nothing.
+
+    Who has `arrived` at a waypoint then slows down there anyway.
+    """
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    times = signal.times / 1e9
+    usual = np.diff(times[(times > asked - 2.0) & (times <= asked)])
+    between = (times > asked + 0.15) & (times < ended - 0.15)
+    speeds = signal.values[between]
+    if not arrived and len(usual) and np.median(usual) > SLOW:
+        return ", because goal_handle.is_cancel_requested is asked too seldom"
+    if len(usual) and not len(speeds):
+        return (
+            f": no command came for {ended - asked:.1f} s, so the robot obeyed the old one; publish the Twist of zeros "
+            "first, before you wait for anything"
+        )
+    if not arrived and len(speeds) > 3 and (np.diff(speeds) <= 0).all() and speeds[-1] < 0.5 * speeds[0]:
+        return ", and it brakes little by little: the robot must stand within half a second"
+    return ""
 
 
 def drives_on(run, speeds):
@@ -316,50 +347,3 @@ def obeys(run, since, until):
             "drives: take the goal away from it, too, and publish a Twist of zeros after that"
         )
     return "it obeys the last command until it gets a Twist of zeros"
-
-
-def other_visited(run, found, total):
-    """Return what `visited` of a patrol that was driven to its end counts."""
-    if found["visited"] == total - 1:
-        return (
-            f"visited is {found['visited']}, one less than the {total} waypoints that the robot has been at, such as "
-            "the index of the last waypoint, which counts from 0"
-        )
-    start, end = run.period("patrol")
-    times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
-    rounds = max(len(run.all("feedback", "patrol")), int(np.sum((times >= start) & (times <= end))))
-    if 3 * total < found["visited"] and 0.8 * rounds < found["visited"] < 1.2 * rounds:
-        return f"visited is {found['visited']}, but {total} waypoints were visited: it counts the iterations of a loop"
-    return f"visited is {found['visited']}, but the robot has been at all {total} waypoints"
-
-
-def other_feedback(run, said, points):
-    """Yield what else distances may be: words, and the values they would have."""
-    places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
-    way, index = run.way[places], np.array([each["waypoint"] for each in said])
-    steps = np.hypot(*np.diff(run.way, axis=0, prepend=run.way[:1]).T)
-    targets = np.array(points)
-
-    def to(numbers):
-        return np.hypot(*(way - targets[np.clip(numbers, 0, len(targets) - 1)]).T)
-
-    here = targets[np.clip(index, 0, len(targets) - 1)] - way
-    following = np.hypot(*np.diff(targets, axis=0).T)
-    first = np.array([np.argmax(index == each) for each in index])
-    yield "how far the robot is from where it started", np.hypot(*way.T)
-    yield "how far the robot has driven", np.cumsum(steps)[places] - np.cumsum(steps)[places[0]]
-    yield "how far it is to the last waypoint", to(np.full(len(index), len(targets)))
-    yield "how far it is to the next waypoint but one", to(index + 1)
-    yield "how far it is to the waypoint before, or always to the first one", to(index - 1)
-    yield "the whole way that is left, over all waypoints", to(index) + [following[i:].sum() for i in index.clip(0)]
-    yield "the square of how far it is: the square root is missing", to(index) ** 2
-    yield "the sum of the distances along x and y; it should be hypot(dx, dy)", np.abs(here).sum(axis=1)
-    yield "how far it is along x alone", np.abs(here[:, 0])
-    yield "how far it is along y alone", np.abs(here[:, 1])
-    yield "how far it is in centimetres", 100 * to(index)
-    yield (
-        "how far it was when the robot set off to this waypoint: compute it again in every iteration",
-        to(index)[first],
-    )
-    yield "how far the robot has come since the waypoint before", to(index)[first] - to(index)
-    yield "the length of the whole leg less itself, or always 0", np.zeros(len(index))

@@ -24,6 +24,9 @@ MISCONCEPTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("
 LATER = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("later_goals.py"))))
 SPEEDS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("speeds.py"))))
 PAUSES = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("pauses.py"))))
+DISTANCES = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("distances.py"))))
+LEGS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("legs.py"))))
+COUNTS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("counts.py"))))
 REFUSALS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("refusals.py"))))
 GOALS = {goal: words for goal, (words, _) in REFUSALS.GOALS.items()}
 
@@ -229,14 +232,18 @@ def feedback(recording, parameters):
     if (indices[0], indices[-1]) == (1, len(points)):
         return wrong(f"waypoint was {indices[0]} first", times[1], "Your feedback counts the waypoints from 1")
     if indices != sorted(indices) or (indices[0], indices[-1]) != (0, len(points) - 1):
-        return wrong(f"waypoint went from {indices[0]} to {indices[-1]}", times[1], other_index(indices, len(points)))
+        return wrong(
+            f"waypoint went from {indices[0]} to {indices[-1]}",
+            times[1],
+            LEGS.goes_on(run) or other_index(indices, len(points)),
+        )
     off = 0
     for each in said:
         here = run.way[np.searchsorted(run.times, each["at"]).clip(0, len(run.times) - 1)]
         left = float(np.hypot(*(here - np.array(points[each["waypoint"]]))))
         off += abs(left - each["distance"]) > 0.15
     if off > 0.1 * len(said):
-        why = other_distance(run, said, points)
+        why = DISTANCES.other_distance(run, said, points)
         return wrong(f"{off} of {len(said)} distances were wrong by more than 0.15 m", times[1], why)
     return Finding(True, expected, f"{len(said)} messages")
 
@@ -249,17 +256,6 @@ def other_index(indices, total):
         return "waypoint of your feedback counts down, as if it were how many are left: it is an index, from 0"
     if indices == sorted(indices) and indices[-1] > total and np.mean(np.diff(indices) > 0) > 0.8:
         return "waypoint of your feedback counts iterations of the loop: it is the index of the waypoint in hand"
-    return ""
-
-
-def other_distance(run, said, points):
-    """Return what else the distances of the feedback are; empty if that is not known."""
-    given = np.array([each["distance"] for each in said])
-    for words, values in MISCONCEPTIONS.other_feedback(run, said, points):
-        if np.mean(np.abs(values - given) <= 0.15 * max(1.0, np.abs(given).max() / 4)) >= 0.9:
-            return f"Your distance is {words}; it should be how far it is to the waypoint of the feedback"
-    if (given < 0).mean() > 0.5:
-        return "Your distance is negative: it is how far it is to the waypoint of the feedback, hypot(dx, dy)"
     return ""
 
 
@@ -278,16 +274,19 @@ def endless(run):
     """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
     if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
         return ""
+    if words := LEGS.goes_on(run):
+        return words
     driving = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
     if len(driving) and driving[-1] > run.end - 0.5 and not still_driving(run, "patrol"):
         return (
             "The robot has been at all waypoints, but no result came until the end of the run, and commands still "
             "come: the loop in execute goes on"
         )
-    return still_driving(run, "patrol") or (
-        "The patrol was driven to its end, but no result came: execute must call goal_handle.succeed() and return a "
-        "Patrol.Result (a function without return returns None, which is no result)"
+    why = suspect(run.recording, "unsent_result") or (
+        "execute must call goal_handle.succeed() and return a Patrol.Result (a function without return returns None, "
+        "which is no result)"
     )
+    return still_driving(run, "patrol") or f"The patrol was driven to its end, but no result came: {why}"
 
 
 def result(recording, parameters):
@@ -309,7 +308,7 @@ def result(recording, parameters):
     elif found["status"] == "SUCCEEDED" and found["visited"] == 0:
         why = "visited of your result is 0, as if it were not filled in, although the robot has been everywhere"
     elif found["status"] == "SUCCEEDED" and found["visited"] != total:
-        why = MISCONCEPTIONS.other_visited(run, found, total)
+        why = LEGS.goes_on(run) or COUNTS.other_visited(run, found, total)
     passed = found["status"] == "SUCCEEDED" and found["visited"] == total
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
@@ -319,7 +318,7 @@ def busy(recording, parameters):
     if gate := no_patrol(run, expected):
         return gate
     if event := run.one("accepted", "second"):
-        so = LATER.spoilt(run)
+        so = suspect(recording, "queued") or LATER.spoilt(run)
         why = f"Your server accepts a second goal during a patrol, which it must reject; {so}" if so else ""
         return Finding(False, expected, "a second goal was accepted during a patrol", event["at"], explanation=why)
     if not run.one("rejected", "second"):
@@ -340,8 +339,8 @@ def busy(recording, parameters):
     found = run.one("result", "again")
     if found is None:
         measured = "the patrol after the cancelled one did not end"
-        why = still_driving(run, "again") or LATER.of_a_later_goal(run) or MISCONCEPTIONS.bearing_of(run, "again")
-        return Finding(False, expected, measured, run.end, explanation=why)
+        why = still_driving(run, "again") or LATER.leftover(run) or LATER.of_a_later_goal(run)
+        return Finding(False, expected, measured, run.end, explanation=why or MISCONCEPTIONS.bearing_of(run, "again"))
     passed = found["status"] == "SUCCEEDED" and run.nearest("again", found["at"])[0] == len(run.waypoints("again"))
     measured = f"the patrol after the cancelled one ended as {found['status']}"
     why = "" if passed else LATER.of_a_later_goal(run) or MISCONCEPTIONS.reached_early(run, "again")
@@ -366,17 +365,22 @@ def cancel(recording, parameters):
     if np.max(before, initial=0.0) < 0.05:
         return gated(expected, "the robot did not drive when the goal was cancelled")
     if run.one("not_cancelling", "cancelled"):
-        why = "Your server refuses to cancel, which is the default: its cancel_callback must accept (CancelResponse)"
+        said = suspect(recording, "refuses_cancel")
+        why = f": {said}" if said else ", which is the default: its cancel_callback must accept (CancelResponse)"
+        why = f"Your server refuses to cancel{why}"
         return Finding(False, expected, "the cancellation was refused", at, explanation=why)
     found = run.one("result", "cancelled")
-    window = (run.times >= at + STOPPED) & (run.times <= at + STOPPED + 0.5)
-    moving = float(np.max(np.abs(run.linear.values[window]), initial=0.0))
+    speed_then, turning = MISCONCEPTIONS.after_cancel(run, at + STOPPED, at + STOPPED + 0.5)
+    moving, rate = MISCONCEPTIONS.after_cancel(run, at + STOPPED, run.end)
     if moving > 0.03 and found is not None and found["at"] < at + STOPPED:
         why = f"The goal ended, but the robot drove on: {MISCONCEPTIONS.obeys(run, found['at'], at + STOPPED + 0.5)}"
         return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
-    if moving > 0.03:
+    if moving > 0.03 or rate > TURNS_ON:
         why = MISCONCEPTIONS.ends_late(run, found, at)
-        return Finding(False, expected, f"{moving:.2f} m/s half a second later", at + STOPPED, explanation=why)
+        measured = f"{speed_then:.2f} m/s half a second later"
+        if speed_then <= 0.03:
+            measured += f", {turning:.2f} rad/s, and up to {moving:.2f} m/s after that"
+        return Finding(False, expected, measured, at + STOPPED, explanation=why)
     if found is None:
         why = (
             "The robot stands, but the goal never ended: when goal_handle.is_cancel_requested is true, execute calls "
@@ -388,12 +392,9 @@ def cancel(recording, parameters):
     why = ""
     if found["status"] != "CANCELED":
         called = "goal_handle.succeed() was called" if found["status"] == "SUCCEEDED" else "no state was set"
-        why = f"The cancelled goal ended as {found['status']}: {called} where goal_handle.canceled() belongs"
-        if said := suspect(recording, "cancel"):
-            why = f"The cancelled goal ended as {found['status']}: {said}"
+        said = suspect(recording, "cancel") or f"{called} where goal_handle.canceled() belongs"
+        why = f"The cancelled goal ended as {found['status']}: {said}"
     elif found["visited"] not in counts:
-        been = f"{min(counts)} of the waypoints when it was cancelled"
-        why = next(filter(None, (MISCONCEPTIONS.counts_on(run, found, count) for count in sorted(counts))), "")
-        elsewhere = LATER.of_a_later_goal(run)
-        why = elsewhere or why or f"visited is {found['visited']}, but the robot had been at {been}"
-    return Finding(not why, expected, measured, found["at"], explanation=why)
+        why = LATER.of_a_later_goal(run) or COUNTS.of_a_cancelled(run, found, counts)
+    passed = found["status"] == "CANCELED" and found["visited"] in counts
+    return Finding(passed, expected, measured, found["at"], explanation=why)

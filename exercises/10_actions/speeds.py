@@ -15,6 +15,8 @@ def other_speed(run, fastest):
     if words := BEARINGS.backwards(run):
         return words
     asked = {goal: run.one("sent", goal)["speed"] for goal in fastest}
+    if words := of_the_one_before(run, asked):
+        return words
     sent = {goal: commanded(run, goal) for goal in fastest}
     ratios = {goal: fastest[goal] / asked[goal] for goal in fastest}
     for factor, words in (
@@ -41,6 +43,26 @@ def other_speed(run, fastest):
             "m/s are asked for: it may be slower only to turn and to arrive"
         )
     return f"Your server drives at {fastest[goal]:.2f} m/s where the goal says {asked[goal]:.2f}: linear.x has no limit"
+
+
+def of_the_one_before(run, asked):
+    """Find out whether the second patrol drives as fast as the first one in its first commands only."""
+    if len(asked) < 2:
+        return ""
+    start, end = run.period("cancelled")
+    signal = run.recording.signal("topics/cmd_vel/linear/x")
+    times = signal.times / 1e9
+    sent = signal.values[(times >= start) & (times <= end)]
+    drives = sent[sent > 0.05]
+    own, before = asked["cancelled"], asked["patrol"]
+    if len(drives) < 10 or abs(own - before) < 2 * SAME * before:
+        return ""
+    if abs(np.median(drives) - own) < SAME * own and abs(drives[0] - before) < SAME * before:
+        return (
+            f"Your server begins a patrol with the speed of the one before, {before:.2f} m/s: what is kept of that "
+            "one, such as a Twist that is made once, has to be set anew"
+        )
+    return ""
 
 
 def commanded(run, goal):

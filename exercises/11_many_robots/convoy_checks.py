@@ -14,9 +14,9 @@ from gz_course.grader.score.launch_errors import launch_meaning
 from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
 from gz_course.grader.score.suspects import suspect
 
-GAP = 1.2  # [m]
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time
+STEPS = 4  # speeds of a follower that sends nothing in between
 AT_REST = 0.3  # [m] that the gap may be off in the end
 OF_A_ROBOT = re.compile(r"/robot\d+/")
 NO_MODEL = re.compile(r"model '([^'/]+\.(?:sdf|urdf))' was not found")
@@ -27,7 +27,7 @@ DRIVES, HEARS = "cmd_vel", "odom"
 ENDS = runpy.run_path(str(Path(__file__).with_name("follower_ends.py")))
 _few, _too_seldom = ENDS["few"], ENDS["too_seldom"]
 ROWS = runpy.run_path(str(Path(__file__).with_name("convoy_rows.py")))
-ROW, _misplaced = ROWS["ROW"], ROWS["misplaced"]
+GAP, ROW, _misplaced = ROWS["GAP"], ROWS["ROW"], ROWS["misplaced"]
 FITS = runpy.run_path(str(Path(__file__).with_name("follower_fits.py")))
 
 
@@ -228,12 +228,12 @@ def listens_to_the_one_in_front(recording, parameters):
     for front, name in itertools.pairwise(names):
         node = f"/{name}/follower"
         if node not in nodes:
-            others = sorted(each for each in nodes if each.endswith("follower"))
+            others = named = sorted(each for each in nodes if each.endswith("follower"))
             others = others or sorted(each for each in nodes if each.startswith(f"/{name}/"))
             why = f"the name of the node is to be follower, in the namespace /{name}" if others else ""
             if all(each.endswith("/follower") for each in others):
                 why = ""
-            if len(names) > 2 and len(others) < len(names) - 1:
+            if named and len(names) > 2 and len(named) < len(names) - 1:
                 why = ENDS["one_name_for_several"](ENDS["started"](recording), others) or why
                 why = why or ENDS["missing"](name, names, others)
             if "/follower" in others:
@@ -369,8 +369,9 @@ def keeps_together(recording, parameters):
                             "timers of its nodes never fire: it comes from Gazebo, [gz.msgs.Clock"
                         )
             return Finding(False, expected, f"{name} stayed where it was", explanation=why)
-        reason = _stopped(recording, sent) or suspect(recording, "first_kept")
-        reason = reason or FITS["ORIGINS"]["sideways"](recording, name)
+        stepped = sent and len(np.unique(np.round(sent[0].linear, 2))) <= STEPS
+        reason = _stopped(recording, sent) or suspect(recording, "first_kept", *["whole_speed"] * bool(stepped))
+        reason = reason or _few(recording, name) or FITS["ORIGINS"]["sideways"](recording, name)
         reason = reason or (_reason(sent) if sent else "")
         reason += ROWS["added_up"](reason, names.index(name))
         if HEADING in reason:

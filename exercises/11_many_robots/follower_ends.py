@@ -4,7 +4,10 @@ import re
 
 import numpy as np
 
+from gz_course.grader.score.suspects import suspect
+
 SELDOM = 0.4  # [s] between the commands of a follower
+SILENT = 2.5  # [s] before the end of a run
 FEWEST = 8  # commands of a follower that goes on
 BY_OTHERS = re.compile(
     r"^\[INFO\] \[(?!gz-|gazebo-|parameter_bridge-|create-|ruby-|ros2-)([^\]]+)-\d+\]: process started"
@@ -44,9 +47,14 @@ def unheard(ends, name, front):
 def few(recording, name):
     """Return that a follower stopped sending commands after the first; empty if it did not."""
     times = recording.signal(f"topics/{name}/cmd_vel/linear/x").times / 1e9
-    if not 0 < len(times) < FEWEST:
+    seen = recording.signal(f"truth/{name}/distance").times / 1e9
+    rest = float(seen[-1] - times[-1]) if len(seen) and len(times) else 0.0
+    silent = rest > max(SILENT, 3 * float(np.diff(times).max(initial=0.0)))
+    if not len(times) or (len(times) >= FEWEST and not silent):
         return ""
     last = f"its last command comes at {times[-1]:.1f} s"
+    if silent and (said := suspect(recording, "silenced")):
+        last += f": {said}"
     return f"its node publishes {len(times)} command{'s' if len(times) > 1 else ''} only, and {last}"
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 ORIGINS = runpy.run_path(str(Path(__file__).with_name("follower_origins.py")))
 LAGS = runpy.run_path(str(Path(__file__).with_name("follower_lags.py")))
-GAP = 1.2  # [m]
+GAP = ORIGINS["GAP"]  # [m]
 FEWEST = 8  # commands; fewer may fit a line by chance
 DELAYS = (0, 50_000_000, 100_000_000)  # [ns] between what a node has heard and what it sends: its timer may fire first
 FITS = 0.99  # of the variance of the commands that a line must explain

@@ -116,3 +116,20 @@ def test_how_often_a_program_was_started():
     texts = ["[INFO] [gz-1]: process started", "[INFO] [python3-6]: process started with pid", "[INFO] [create-3]: x"]
     recording = SimpleNamespace(lines=lambda entity: [SimpleNamespace(text=text) for text in texts])
     assert CHECKS["ENDS"]["started"](recording) == 1
+
+
+def test_a_follower_that_falls_silent():
+    ends = runpy.run_path(str(HERE.parents[1] / "exercises/11_many_robots/follower_ends.py"))
+
+    def said(until):
+        times = {"cmd_vel": np.arange(0.1, until, 0.05), "distance": np.arange(0.0, 7.0, 0.05)}
+        signals = {name: SimpleNamespace(times=each * 1e9) for name, each in times.items()}
+        place = {"line": 7, "about": "silenced", "said": "so it is"}
+        recording = SimpleNamespace(
+            signal=lambda name: next(signals[each] for each in signals if each in name),
+            facts=lambda: {"suspects": [place]},
+        )
+        return ends["few"](recording, "robot2")
+
+    assert said(0.95) == "its node publishes 17 commands only, and its last command comes at 0.9 s: line 7: so it is"
+    assert said(7.0) == ""

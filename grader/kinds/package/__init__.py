@@ -110,7 +110,12 @@ def misdirected(recording: Recording, facts: dict[str, Any]) -> str:
     listened = {topic: kind for topic, kind in facts.get("listened", {}).items() if topic not in given}
     offered = facts.get("offered", {}).items() - {("/clock", "rosgraph_msgs/msg/Clock")}
     ends = facts.get("endpoints", [])
-    hears = any((e["topic"], e["type"]) in offered for e in ends if e["kind"] == "subscription")
+    kept = facts.get("kept", [])
+    hears = any(
+        (e["topic"], e["type"]) in offered
+        for e in ends
+        if e["kind"] == "subscription" and (e.get("durability") != "TRANSIENT_LOCAL" or e["topic"] in kept)
+    )
     said = publishers(recording, facts | {"listened": listened}) if given else ""
     return said or ("" if hears or not given or not offered else subscriptions(recording, facts))
 

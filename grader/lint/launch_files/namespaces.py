@@ -61,7 +61,10 @@ def slashes_in_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[P
     if not any("__ns:=" in text(each) for each in file.nodes):
         return
     own = {name for content in nodes.values() for name in _topics(content)}
+    behind = {id(each) for node in file.nodes if isinstance(node, ast.JoinedStr) for each in node.values}
     for node in file.nodes:
+        if id(node) in behind:
+            continue  # no rule begins here
         first = node.values[0] if isinstance(node, ast.JoinedStr) and node.values else node
         said = text(first)
         name = said.partition(":=")[0]
@@ -74,6 +77,25 @@ def slashes_in_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[P
             return
 
 
+def exchanged_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+    """Find `-r /robot1/odom:=front/odom` for a node whose own name for the topic is `front/odom`."""
+    own = {name for content in nodes.values() for name in _topics(content)}
+    behind = {id(each) for node in file.nodes if isinstance(node, ast.JoinedStr) for each in node.values}
+    for node in file.nodes:
+        if id(node) in behind or not isinstance(node, ast.JoinedStr | ast.Constant):
+            continue
+        parts = node.values if isinstance(node, ast.JoinedStr) else [node]
+        said = "".join(text(each) or "{}" for each in parts)
+        old, rule, new = said.partition(":=")
+        if rule and new in own and old.startswith("/") and old not in own and old.rpartition("/")[2]:
+            yield (
+                node.lineno,
+                f"the two names of this rule are exchanged: it is FROM:=TO, and the node's own name is {new}, so "
+                f"`{new}:=` comes first",
+            )
+            return
+
+
 def _topics(content: bytes) -> set[str]:
     """Return the names of topics and services that a program gives as texts."""
     tree = parsed(content)
@@ -81,4 +103,16 @@ def _topics(content: bytes) -> set[str]:
     return {text(each) for each in given} - {""}
 
 
-LOOKS = (pushed_without_group, groups_for_processes)
+def namespaces_in_the_environment(file: LaunchFile) -> Iterator[Place]:
+    """Find the variable that ROS 1 read for the namespace of a node."""
+    for node in file.nodes:
+        if text(node) == "ROS_NAMESPACE":
+            yield (
+                node.lineno,  # type: ignore[attr-defined]
+                "ROS_NAMESPACE is a variable of ROS 1, and no node of ROS 2 reads it: the namespace is namespace= of "
+                "Node, or --ros-args -r __ns:=/NAMESPACE in a command",
+            )
+            return
+
+
+LOOKS = (pushed_without_group, groups_for_processes, namespaces_in_the_environment)

@@ -8,6 +8,7 @@ Source: https://github.com/ros2/rcl, rcl/src/rcl/arguments.c
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
@@ -17,6 +18,7 @@ from gz_course.grader.lint.syntax import walk
 
 PARAMETER = ("-p", "--param")
 RULE = ("-r", "--remap")
+QUOTED = re.compile(r"(\w+):=(['\"])([Tt]rue|[Ff]alse)\2")
 GROWS = ("append", "extend", "insert")
 DEEPEST = 5  # lists in lists that are followed
 
@@ -85,6 +87,20 @@ def quoted_truths(file: LaunchFile) -> Iterator[Place]:
                         )
 
 
+def quotes_in_words(file: LaunchFile) -> Iterator[Place]:
+    """Find `"use_sim_time:='true'"` in a list of words: no shell takes the quotes away."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        if argument(call, "shell") is not None:
+            return
+    for node in file.nodes:
+        if match := QUOTED.fullmatch(text(node)):
+            yield (
+                node.lineno,  # type: ignore[attr-defined]
+                f"`{match[0]}` sets a text, and {match[1]} is true or false: no shell takes the quotes away here, so "
+                f"write {match[1]}:={match[3].lower()}",
+            )
+
+
 def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` for a program of the submission that declares parameters of other names only."""
     owners = _functions_of(file)
@@ -150,4 +166,4 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
 
 
-LOOKS = (without_ros_args, values_apart, nested_parameters, quoted_truths)
+LOOKS = (without_ros_args, values_apart, nested_parameters, quoted_truths, quotes_in_words)

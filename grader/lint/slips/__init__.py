@@ -33,6 +33,7 @@ from gz_course.grader.lint.slips.geometry import (
 from gz_course.grader.lint.slips.language import (
     conditions,
     everyday,
+    keys,
     late_binding,
     locks,
     names,
@@ -72,7 +73,7 @@ MOST = 3  # places reported at most
 # What is said first of several.
 ROOMS = (
     everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, called_once.LOOKS, late_binding.LOOKS, waiting.LOOKS,
-    names.LOOKS, never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS, no_effect.LOOKS,
+    names.LOOKS, keys.LOOKS, never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS, no_effect.LOOKS,
     parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
     searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS, euler_angles.LOOKS,
     exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS,

@@ -19,6 +19,7 @@ from gz_course.grader.lint.suspects.actions import (
     phases,
     rare_feedback,
     tried_goals,
+    visits,
     waypoint_loops,
 )
 from gz_course.grader.lint.suspects.memory import (
@@ -58,6 +59,7 @@ from gz_course.grader.lint.suspects.steering import (
     error_arithmetic,
     feedback,
     followers,
+    heading_formulas,
     headings,
     made_poses,
     sleeps,
@@ -73,6 +75,7 @@ from gz_course.grader.lint.syntax import Places, places_in
 
 LOOKS = (
     *headings.LOOKS,
+    *heading_formulas.LOOKS,
     *bias_while_turning.LOOKS,
     *gyroscopes.LOOKS,
     *bias_use.LOOKS,
@@ -102,6 +105,7 @@ LOOKS = (
     *drives.LOOKS,
     *hidden_errors.LOOKS,
     *ways.LOOKS,
+    *visits.LOOKS,
     *waypoint_loops.LOOKS,
     *ages.LOOKS,
     *every_nth.LOOKS,

@@ -7,7 +7,7 @@ import pytest
 
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.exercise.trial import Trial
-from gz_course.grader.kinds.package import APART, command, plan
+from gz_course.grader.kinds.package import APART, command, misdirected, plan
 from gz_course.grader.run.agent.course_agent.run_package import build_all
 from gz_course.grader.submission.intake import take_in
 
@@ -56,3 +56,12 @@ def test_a_fault_in_the_package_is_one_sentence_with_file_and_line(solved, tmp_p
         "package.xml", "<member_of_group>rosidl_interface_packages</member_of_group>", ""
     )
     assert "this is not XML" in faults("package.xml", "</package>", "")
+
+
+def test_a_subscription_that_gets_nothing_by_its_durability_is_named():
+    end = {"kind": "subscription", "node": "/patrol_server", "topic": "/odom", "type": "nav_msgs/msg/Odometry"}
+    end |= {"reliability": "RELIABLE", "durability": "VOLATILE"}
+    facts = {"given_topics": ["/dispatcher"], "offered": {"/odom": end["type"]}, "endpoints": [end]}
+    assert misdirected(None, facts) == ""
+    end["durability"] = "TRANSIENT_LOCAL"
+    assert "asks for the durability TRANSIENT_LOCAL" in misdirected(None, facts)

@@ -20,6 +20,8 @@ ERRORS = (
     "AttributeError: 'Patrol_Result' object has no attribute 'count'",
     "AttributeError: 'Publisher' object has no attribute 'send'",
     "AttributeError: 'ServerGoalHandle' object has no attribute 'is_preempt_requested'",
+    "AttributeError: 'ActionServer' object has no attribute 'publish_feedback'",
+    "TypeError: unsupported operand type(s) for ^: 'float' and 'float'",
     "AttributeError: 'ServerGoalHandle' object has no attribute 'set_succeeded'",
     "AttributeError: 'ServerGoalHandle' object has no attribute 'waypoints'",
     "AttributeError: 'Subscriber' object has no attribute 'get_message'",

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, called, functions, last_name, walk
+from gz_course.grader.lint.syntax import Place, assigned, called, functions, last_name, set_to, walk
 
 # Position of each callback among the arguments; -1 for those that are given by name only.
 PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
@@ -88,6 +88,33 @@ def no_result(tree: ast.AST) -> Iterator[Place]:
                         "this return gives no result, and a goal without a result never ends for its client: return a "
                         "Result of the action here, too",
                     )
+
+
+def no_message_as_result(tree: ast.AST) -> Iterator[Place]:
+    """Find an execute callback that returns a number, a truth value, or a field of its Result."""
+    for role, function in _callbacks(tree):
+        if role != "execute_callback" or not isinstance(function, ast.FunctionDef):
+            continue
+        values = set_to(function)
+        results = {
+            name for name, given in values.items() if any(last_name(_callee(each)) == "Result" for each in given)
+        }
+        for value in _returned(function):
+            owner = ast.unparse(value.value) if isinstance(value, ast.Attribute) else ""
+            counted = values.get(ast.unparse(value), []) if isinstance(value, ast.Name) else [value]
+            number = bool(counted) and all(
+                isinstance(each, ast.Constant) and each.value is not None for each in counted
+            )
+            if value is not None and (owner in results or number):
+                yield (
+                    value.lineno,
+                    f"execute returns `{ast.unparse(value)}`, and what it returns is the result that the client gets: "
+                    "return the Result of the action, with its fields set",
+                )
+
+
+def _callee(node: ast.expr) -> ast.expr:
+    return node.func if isinstance(node, ast.Call) else node
 
 
 def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
@@ -236,6 +263,6 @@ def _held(function: ast.FunctionDef) -> Iterator[tuple[str, int, list[ast.stmt]]
 
 
 LOOKS = (
-    answers, no_result, keeps_the_only_thread, spins_itself, ended_by_the_answer, never_executed,
-    ends_before_it_drives, without_a_pause, keeps_a_lock,
+    answers, no_result, no_message_as_result, keeps_the_only_thread, spins_itself, ended_by_the_answer,
+    never_executed, ends_before_it_drives, without_a_pause, keeps_a_lock,
 )  # fmt: skip

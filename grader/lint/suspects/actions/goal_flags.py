@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
+TURNS = frozenset({"Lock", "RLock", "Semaphore", "BoundedSemaphore"})
 ENDS = frozenset({"succeed", "canceled", "abort"})
 
 
@@ -104,16 +105,20 @@ def _reads(tree: ast.AST) -> Iterator[ast.expr]:
             yield node
 
 
-def cancelled_for_ever(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a flag that the cancel callback sets and that nothing sets back."""
-    given = [
+def _given_to_cancel(tree: ast.AST) -> list[str]:
+    """Return the names of the functions that answer whether a goal may be cancelled."""
+    return [
         last_name(each.value)
         for call, name in calls(tree)
         if name == "ActionServer"
         for each in call.keywords
         if each.arg == "cancel_callback"
     ]
-    for function in (each for each in functions(tree) if each.name in given):
+
+
+def cancelled_for_ever(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a flag that the cancel callback sets and that nothing sets back."""
+    for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
         for target, value in assigned(function):
             name = _own(target)
             others = [f for f in functions(tree) if f is not function and f.name != "__init__"]
@@ -197,7 +202,57 @@ def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def waits_for_its_turn(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a goal that waits in execute until the patrol before it has ended: for a lock, or for a flag of the node."""
+    given = [
+        each.value
+        for call, name in calls(tree)
+        if name == "ActionServer"
+        for each in [*call.keywords, *(ast.keyword("execute_callback", arg) for arg in call.args[3:4])]
+        if each.arg == "execute_callback"
+    ]
+    names = {last_name(each) for each in given}
+    locks = {_own(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in TURNS}
+    for function in (each for each in functions(tree) if each.name in names):
+        for line, what in _waits(function, locks - {""}):
+            yield (
+                line,
+                "queued",
+                f"a goal waits here for {what} until the one before it has ended; one patrol at a time means that "
+                "goal_callback returns GoalResponse.REJECT meanwhile",
+            )
+
+
+def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, str]]:
+    """Yield each place at which a function takes a lock for all that it does, or sleeps until a flag is set back."""
+    for statement in function.body:
+        if isinstance(statement, ast.With):
+            for item in statement.items:
+                held = ast.unparse(item.context_expr)
+                if held in locks and any(isinstance(each, ast.Return) for each in walk(statement)):
+                    yield statement.lineno, held
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        held = ast.unparse(call.func).removesuffix(".acquire") if isinstance(call, ast.Call) else ""
+        if held in locks:
+            yield statement.lineno, held
+        if isinstance(statement, ast.While) and called(statement) <= {"sleep", "ok"} and "sleep" in called(statement):
+            flag = next((_own(each) for each in _reads(statement.test)), "")
+            set_later = any(_own(t) == flag and _constant(v) is True for t, v in assigned(function))
+            if flag and set_later:
+                yield statement.lineno, flag
+
+
+def cancellations_refused(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a cancel callback that refuses."""
+    for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
+        for node in walk(function):
+            if isinstance(node, ast.Return) and node.value is not None and _rejects(node.value):
+                yield node.lineno, "refuses_cancel", f"`{ast.unparse(node)[:90]}` in {function.name} refuses"
+
+
 LOOKS = (
+    cancellations_refused,
+    waits_for_its_turn,
     set_before_the_answer,
     locked_before_the_answer,
     kept_of_refused_goals,

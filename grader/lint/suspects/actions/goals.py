@@ -126,11 +126,12 @@ def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find an index of a feedback that is a quotient or is made a float, where the field is an int32."""
     for value, field in _fields(tree):
         quotient = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div)
-        if field == "waypoint" and (quotient or (isinstance(value, ast.Call) and last_name(value.func) == "float")):
+        broken = quotient or (isinstance(value, ast.Call) and last_name(value.func) == "float")
+        if field in ("waypoint", "visited") and broken:
             yield (
                 value.lineno,
-                "feedback",
-                f"{ast.unparse(value)} is a float, and the field waypoint is an int32, which rclpy cannot send it as: "
+                "feedback" if field == "waypoint" else "unsent_result",
+                f"{ast.unparse(value)} is a float, and the field {field} is an int32, which rclpy cannot send it as: "
                 "give it a whole number",
             )
         elif field == "waypoint" and isinstance(value, ast.Name) and _has_coordinates(tree, value.id):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from typing import TypeGuard
 
 from gz_course.grader.lint.syntax import assigned, called, walk
 
@@ -34,12 +35,31 @@ def _askers(tree: ast.AST) -> set[str]:
     return found
 
 
+def _asked_by(node: ast.AST) -> TypeGuard[ast.If]:
+    """Return whether a node is an `if` that asks for a cancellation."""
+    return isinstance(node, ast.If) and bool(_asks(node.test))
+
+
+def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `if index == 0 and goal_handle.is_cancel_requested`."""
+    for test in (each for each in walk(tree) if _asked_by(each)):
+        if not isinstance(test.test, ast.BoolOp) or not isinstance(test.test.op, ast.And):
+            continue
+        others = " and ".join(ast.unparse(each) for each in test.test.values if not _asks(each))
+        leaves = any(isinstance(part, ast.Return | ast.Break) for part in test.body)
+        if others and (leaves or "canceled" in called(test)):
+            yield test.lineno, "cancel", f"a cancellation counts only if `{others[:80]}` is true, too"
+
+
 def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives without asking for a cancellation, in a file that asks for it elsewhere."""
     lines, askers = _asks(tree), _askers(tree)
     if not lines:
         return
+    answering = {id(n) for test in walk(tree) if _asked_by(test) for part in test.body for n in walk(part)}
     for loop in walk(tree):
+        if id(loop) in answering:
+            continue  # it belongs to what is done about a cancellation
         if not isinstance(loop, Loop) or not called(loop) & STEPS or _asks(loop) or called(loop) & askers:
             continue
         if not set().union(*map(called, loop.body)) - WAITS - LOGS:
@@ -166,6 +186,7 @@ def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
 
 
 LOOKS = (
+    asked_under_a_condition,
     velocities_for_places,
     loops_that_do_not_ask,
     breaks_of_the_inner_loop,

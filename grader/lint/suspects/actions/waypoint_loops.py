@@ -111,4 +111,26 @@ def _begins_at_one(function: ast.FunctionDef) -> Iterator[Suspect]:
                 )
 
 
-LOOKS = (left_in_the_first_round, waypoints_left_out)
+def flags_never_set_back(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `while not self.arrived` in a loop over waypoints, where the flag becomes True and never False again."""
+    values: dict[str, set[object]] = {}
+    for function in functions(tree):
+        for target, value in assigned(function) if function.name != "__init__" else ():
+            constant = value.value if isinstance(value, ast.Constant) else None
+            values.setdefault(ast.unparse(target), set()).add(constant)
+    for function in _drives(tree):
+        for loop in (each for each in walk(function) if isinstance(each, ast.For)):
+            for inner in (each for part in loop.body for each in walk(part) if isinstance(each, ast.While)):
+                for node in walk(inner.test):
+                    match node:
+                        case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name(id="self")) as flag):
+                            if values.get(name := ast.unparse(flag)) == {True}:
+                                yield (
+                                    inner.lineno,
+                                    "left_early",
+                                    f"{name} stays True from the first waypoint on, so `{ast.unparse(node)}` is False "
+                                    f"at once for the next: set {name} to False before this loop",
+                                )
+
+
+LOOKS = (flags_never_set_back, left_in_the_first_round, waypoints_left_out)

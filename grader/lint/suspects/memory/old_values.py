@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, called, functions, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, walk
 
 # Parts of names that keep a first value on purpose.
 FIRST = ("start", "first", "begin", "origin", "home", "init", "zero", "ref", "from", "old", "last", "prev")
@@ -138,6 +138,32 @@ def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def set_by_default(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a callback that keeps its message by `setdefault`, which keeps the first one."""
+    for function in functions(tree):
+        message = {each.arg for each in function.args.args if each.arg != "self"}
+        made = {name for t, v in assigned(function) if _names(v) & message for name in _names(t)}
+        for call, name in calls(function):
+            kept = isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value).startswith("self.")
+            if name != "setdefault" or not kept or len(call.args) != 2 or _is_empty(call.args[1]):
+                continue
+            if _names(call.args[1]) & (message | made) and not _on_purpose(ast.unparse(call)):
+                yield (
+                    call.lineno,
+                    "first_kept",
+                    f"setdefault() sets what is not set yet, so {function.name} keeps its first message and passes "
+                    "over all later ones: [key] = value sets it with each message",
+                )
+
+
+def _names(node: ast.AST) -> set[str]:
+    return {each.id for each in walk(node) if isinstance(each, ast.Name)}
+
+
+def _is_empty(node: ast.expr) -> bool:
+    return ast.unparse(node) in ("[]", "{}", "list()", "dict()", "set()")
+
+
 def _tested_for_a_value(test: ast.expr) -> str:
     """Return the attribute of `self.x is not None` or `self.x`; empty for another test."""
     if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.IsNot):
@@ -160,4 +186,4 @@ def _sets(node: ast.Assign, name: str) -> bool:
     )
 
 
-LOOKS = (copied_before_a_loop, first_message_kept, returns_when_set)
+LOOKS = (copied_before_a_loop, first_message_kept, returns_when_set, set_by_default)

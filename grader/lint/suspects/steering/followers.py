@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 KEPT = re.compile(r"gap|desired|wanted|1\.2\b|keep|spacing|target_dist", re.IGNORECASE)
 MEASURED = re.compile(r"dist|hypot|range|length|separation", re.IGNORECASE)
@@ -87,4 +87,26 @@ def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (whole_speeds, gap_minus_distance, drives_when_near, added_positions)
+def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a timer that is cancelled in its own callback where a distance is small, and never begins again."""
+    if called(tree) & {"reset"} or "create_subscription" not in called(tree):
+        return
+    near = [each for each in walk(tree) if isinstance(each, ast.If) and LESS.search(ast.unparse(each.test))]
+    under = {id(node) for each in near for part in each.body for node in walk(part)}
+    for target, value in assigned(tree):
+        if not isinstance(value, ast.Call) or last_name(value.func) != "create_timer":
+            continue
+        timer, callback = ast.unparse(target), last_name(value.args[1]) if len(value.args) > 1 else ""
+        for function in (each for each in functions(tree) if each.name == callback):
+            for call, name in calls(function):
+                ends = name == "cancel" and ast.unparse(call.func) == f"{timer}.cancel"
+                if id(call) in under and (ends or (name == "destroy_timer" and timer in map(ast.unparse, call.args))):
+                    yield (
+                        call.lineno,
+                        "silenced",
+                        f"{ast.unparse(call)} ends the timer for good, so {callback} is never called again: return "
+                        "instead, or send a Twist of zeros",
+                    )
+
+
+LOOKS = (timers_that_end_themselves, whole_speeds, gap_minus_distance, drives_when_near, added_positions)

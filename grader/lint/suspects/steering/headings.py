@@ -73,7 +73,7 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
     if used == {"atan2"} and parts == {"z", "w"} and isinstance(value, ast.Call):
         if _part(value.args[0], names) == "w":
             return f"atan2 takes the sine first, which is z; {right}"
-        return f"that is half of it; {right}"
+        return f"that is half of it; {right}" if all(_part(each, names) for each in value.args) else ""
     if used and used <= {"acos", "arccos"} and parts == {"w"}:
         return f"acos is never negative, so whoever has turned to the right seems to have turned to the left; {right}"
     if used and used <= {"asin", "arcsin"} and parts == {"z"} and isinstance(value, ast.Call):

@@ -26,6 +26,10 @@ MEANINGS = (
         "& and | bind stronger than comparisons: each condition needs brackets, as in (a > 1) & (b < 2)",
     ),
     (
+        re.compile(r"TypeError: unsupported operand type\(s\) for \^=?: '(?:float|int|numpy\.float\d+)'"),
+        "^ is an operator on bits, for whole numbers: a power is written with **, as in x ** 2",
+    ),
+    (
         re.compile(r"TypeError: unsupported operand type\(s\) for [&|]: '(?:float|numpy\.float\d+)'"),
         "& and | bind stronger than comparisons: each condition needs brackets, as in (a > 1) & (b < 2)",
     ),
@@ -120,7 +124,8 @@ MEANINGS = (
             r"InvalidParameterTypeException: Trying to set parameter '(\w+)' to '([^']*)' of type 'STRING', "
             r"expecting type 'BOOL'"
         ),
-        "{0} is given as a text, '{1}' in quotes, and is of type BOOL: in Python that is True or False without quotes",
+        "{0} is given as a text, '{1}' in quotes, and is of type BOOL: that is True or False in Python, and {0}:=true "
+        "on a command line, without quotes",
     ),
     (
         re.compile(
@@ -164,6 +169,14 @@ MEANINGS = (
         "a parameter is declared once, in __init__; afterwards get_parameter('NAME').value reads it",
     ),
     # actions
+    (
+        re.compile(
+            r"AttributeError: 'ActionServer' object has no attribute "
+            r"'(publish_feedback|succeed|abort|canceled|is_cancel_requested|request)'"
+        ),
+        "{0} belongs to the goal and not to the server: it is that of the goal handle that execute gets, "
+        "goal_handle.{0}",
+    ),
     (
         re.compile(r"AttributeError: 'ServerGoalHandle' object has no attribute '(set_\w+|cancel(?:led|l?ing)?)'"),
         "{0} is no method of rclpy's goal handle (set_... are those of ROS 1): a goal ends with goal_handle.succeed(), "

@@ -65,3 +65,14 @@ def test_a_return_inside_of_the_loop():
     text = LAUNCH[: LAUNCH.index("def convoy")] + loop
     assert slips(text + "    return actions\n") == []
     assert "ends in its first iteration" in slips(text + "        return actions\n")[0]
+
+
+def test_a_namespace_in_the_environment():
+    given = LAUNCH.replace('executable="e"', 'executable="e", additional_env={"ROS_NAMESPACE": "/robot2"}')
+    assert any("ROS_NAMESPACE is a variable of ROS 1" in each for each in slips(given))
+
+
+def test_a_rule_whose_names_are_exchanged():
+    given = LAUNCH.replace("front/odom:=/robot{number - 1}/odom", "/robot{number - 1}/odom:=front/odom")
+    found = slips(given, NODE + 'node.create_subscription(Odometry, "odom", heard, 10)\n')
+    assert len(found) == 1 and "`front/odom:=` comes first" in found[0]

@@ -79,3 +79,20 @@ def test_a_truth_in_quotes(value, found):
     launch = f'LaunchDescription([Node(executable="b", parameters=[{{"use_sim_time": {value}}}])])\n'
     slips = launch_places(launch.encode())["launch_slips"]
     assert any("and takes True or False, without quotes" in each["said"] for each in slips) == found
+
+
+@pytest.mark.parametrize(
+    ("word", "shell", "found"),
+    [
+        ("use_sim_time:='true'", "", True),
+        ("use_sim_time:=true", "", False),
+        ("use_sim_time:='true'", ", shell=True", False),
+        ("name:='robot'", "", False),
+    ],
+)
+def test_quotes_that_no_shell_takes_away(word, shell, found):
+    file = (
+        f'run = ExecuteProcess(cmd=["python3", "a.py", "--ros-args", "-p", "{word}"]{shell})\nLaunchDescription([run])'
+    )
+    slips = launch_places(file.encode())["launch_slips"]
+    assert any("write use_sim_time:=true" in each["said"] for each in slips) == found

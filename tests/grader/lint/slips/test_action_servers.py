@@ -69,6 +69,12 @@ def test_a_right_file_has_none():
         ("return GoalResponse.REJECT\n", "return False\n", "goal_callback returns False"),
         ("return GoalResponse.ACCEPT if goal.speed > 0 else GoalResponse.REJECT", "return goal.speed > 0", "no answer"),
         ("        return Patrol.Result()\n", "", "execute returns nothing"),
+        ("return Patrol.Result()\n", "return True\n", "execute returns `True`, and what it returns is the result"),
+        (
+            "return Patrol.Result()\n",
+            "result = Patrol.Result()\n        return result.visited\n",
+            "execute returns `result.visited`, and what it returns is the result",
+        ),
         (", MultiThreadedExecutor(4)", "", "keeps the only thread"),
         (
             "self.execute, goal",

@@ -86,3 +86,16 @@ def test_a_count_that_goes_on(old, new, words):
         source = source.replace("self.goals = 0", "self.visited = 0")
     (found,) = said(source, "result")
     assert words in found
+
+
+def test_a_cancellation_that_counts_under_a_condition():
+    asked = RIGHT.replace("if handle.is_cancel_requested", "if self.goals == 1 and handle.is_cancel_requested")
+    assert said(asked, "cancel") == ["a cancellation counts only if `self.goals == 1` is true, too"]
+
+
+def test_a_loop_that_brakes_does_not_ask_again():
+    loop = "while self.speed > 0:\n                        self.publisher.publish(self.slower())\n"
+    braking = RIGHT.replace(
+        "if handle.is_cancel_requested:\n", f"if handle.is_cancel_requested:\n                    {loop}"
+    )
+    assert not said(braking, "cancel")
