@@ -365,9 +365,9 @@ def why(recording, said, scan):
         if solid[changed].mean() >= TRUE > 0.85 > solid[marked].mean():
             return words
     words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
-    if words := words or DRIVING.suspect(recording, "counter", "pose"):
+    if words := words or DRIVING.suspect(recording, "counter", "pose", "stride"):
         return words
-    return first_arcs(recording, solid)
+    return first_arcs(recording, solid) or DRIVING.LAGS.drawn_late(said, marked, solid, scan)
 
 
 def first_arcs(recording, solid):
@@ -396,5 +396,5 @@ def drawn_elsewhere(recording):
             share, back = grown(drawn)[marked].mean(), grown(marked)[drawn].mean()  # what is scattered fits all walls
             if share >= FITS and share > best and back >= BACK:
                 best, words = share, each
-        return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
+        return (("heading" in words or "pose is" in words) and DRIVING.suspect(recording, "heading")) or words
     return ""

@@ -1,10 +1,17 @@
 """What is wrong with how a robot explored, or with what its map leaves out; `checks.py` asks for it."""
 
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
 import numpy as np
 
 from gz_course.grader.score.floor import grown
 from gz_course.grader.score.suspects import suspect
 
+LAST, LAGS = (
+    SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name)))) for name in ("last_commands.py", "lags.py")
+)
 AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was driven at
 MOVED = 0.3  # [m]
 SLOW = 0.15  # [m/s]
@@ -96,7 +103,7 @@ def slow_or_lost(recording):
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
-    if aside := sideways(recording) or backwards(recording):
+    if aside := sideways(recording) or backwards(recording) or suspect(recording, "sleep") or LAST.kept(recording):
         return aside
     planning = suspect(recording, *PLANNING) or suspect(recording, "heading", "angle") or suspect(recording, "wide")
     if turns > TURNS and way < 0.1 * seconds:
@@ -178,7 +185,9 @@ def touched(recording, radius, at, place, there=""):
     kinds = "sleep", "forgets", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
     if said := suspect(recording, *kinds, "straight"):
         return said
-    if said := sideways(recording) or backwards(recording) or drives_while_turning(recording):
+    if said := LAST.kept(recording, at / 1e9) or sideways(recording) or backwards(recording):
+        return said
+    if said := drives_while_turning(recording):
         return said
     if abs(bearing) > AHEAD and (said := suspect(recording, "narrow")):
         return said

@@ -218,4 +218,10 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ),
     ):
         yield words, hits(scan, angles=direction)
+    if len(pose) and not scan.hit.all():
+        yield (
+            "rays without a hit are left out before the others are numbered: the angle of ray i is angle_min + i * "
+            "angle_increment, where i counts all rays",
+            hits(scan, angles=heading + angles[np.maximum(np.cumsum(scan.hit, axis=1) - 1, 0)]),
+        )
     yield "sine and cosine are exchanged", hits(scan, angles=np.pi / 2 - heading - angles)

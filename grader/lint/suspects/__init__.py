@@ -34,6 +34,7 @@ from gz_course.grader.lint.suspects.memory import (
 from gz_course.grader.lint.suspects.planning import (
     closed_gates,
     forgetting,
+    heaps,
     margins,
     own_places,
     straight_goals,
@@ -114,6 +115,7 @@ LOOKS = (
     *flags.LOOKS,
     *ray_parts.LOOKS,
     *way_ends.LOOKS,
+    *heaps.LOOKS,
     *turning_signs.LOOKS,
     *closed_gates.LOOKS,
     *margins.LOOKS,

@@ -49,7 +49,8 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
                 continue
             line = next(line for line, each in reaches if each == name)
             if name not in names:
-                value = number(ast.parse(name, mode="eval").body, known) or _by_cells(function, name, known)
+                value = number(ast.parse(name, mode="eval").body, known)
+                value = _by_cells(function, name, known) if value is None else value
                 if value is not None:
                     yield _made_at(function, name) or line, name, value
                 continue

@@ -16,6 +16,8 @@ CORNER_Y = re.compile(
 )
 ROW, COLUMN = re.compile(r"\b(?:rows?|r)\b"), re.compile(r"\b(?:columns?|cols?|c)\b")
 X, Y = re.compile(r"(?:^|[._])[a-z]?x$"), re.compile(r"(?:^|[._])[a-z]?y$")
+ROWS = re.compile(r"(?:^|[._])(?:row|r|cy|gy|iy|my|y|j)$")
+HEIGHTS = re.compile(r"(?:^|[._])(?:height|h|rows|n_?rows|grid_height|map_height)$", re.IGNORECASE)
 PAIRS = ((X, Y), (re.compile(r"^(?:row|r|cy|j)$"), re.compile(r"^(?:col|column|c|cx|i)$")))
 
 
@@ -118,4 +120,22 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)
+def other_stride(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `row * height + column`, by which cells of different rows share a place."""
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(
+                left=ast.BinOp(left=one, op=ast.Mult(), right=other), op=ast.Add(), right=ast.Name() | ast.Attribute()
+            ):
+                names = (ast.unparse(one), ast.unparse(other)), (ast.unparse(other), ast.unparse(one))
+                for row, length in names:
+                    if ROWS.search(row) and HEIGHTS.search(length):
+                        yield (
+                            node.lineno,
+                            "stride",
+                            f"{ast.unparse(node)[:60]} multiplies the row by the number of rows: a row is width cells "
+                            f"long, so the place is {row} * width + column",
+                        )
+
+
+LOOKS = (other_stride, unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)

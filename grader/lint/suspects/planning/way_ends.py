@@ -78,4 +78,20 @@ def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
-LOOKS = (ends_of_a_way, other_end_taken)
+def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop over a way that returns, or breaks, in its first pass whatever the cell is."""
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        ways = {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}
+        for loop in (node for node in walk(owner) if isinstance(node, ast.For)):
+            early = any(isinstance(each, ast.Continue) for each in walk(loop))
+            if ast.unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
+                yield (
+                    loop.lineno,
+                    "way",
+                    f"the loop over {ast.unparse(loop.iter)} ends in its first pass, line {loop.body[-1].lineno}, so it "
+                    "always takes the first cell of the way, in which the robot stands: a condition must say which "
+                    "cell is far enough",
+                )
+
+
+LOOKS = (ends_of_a_way, other_end_taken, left_in_the_first_pass)

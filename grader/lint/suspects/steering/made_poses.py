@@ -18,7 +18,9 @@ def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
     if "Odometry" not in ast.unparse(tree):
         return
     for function in functions(tree):
+        twists = {ast.unparse(one) for one, value in assigned(function) if ast.unparse(value).endswith(".twist.twist")}
         rates = {ast.unparse(one) for one, value in assigned(function) if RATE.search(ast.unparse(value))}
+        rates |= {f"{name}.angular.z" for name in twists}
         for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
             parts = {ast.unparse(each) for each in walk(node.value)}
             if isinstance(node.op, ast.Add) and (RATE.search(ast.unparse(node.value)) or parts & rates):

@@ -173,3 +173,31 @@ def test_parts_that_are_unpacked_in_another_order():
     ((line, said),) = found(own_places, text)
     assert line == 2 and "x, y, ..." in said
     assert found(own_places, text.replace("x, yaw, y", "x, y, yaw")) == []
+
+
+@pytest.mark.parametrize(
+    ("code", "number"),
+    [
+        ("row * self.height + col", 1),
+        ("HEIGHT * iy + ix", 1),
+        ("row * self.width + col", 0),
+        ("col * self.height + row", 0),
+        ("row * height + 5", 0),
+    ],
+)
+def test_a_row_is_as_long_as_the_map_is_wide(code, number):
+    assert len(list(own_places.other_stride(ast.parse(f"place = {code}")))) == number
+
+
+def test_a_margin_of_no_cell():
+    text = """
+kind = OccupancyGrid
+class Planner:
+    REACH = 0
+    def widened(self, walls):
+        for dy in range(-self.REACH, self.REACH + 1):
+            for dx in range(-self.REACH, self.REACH + 1):
+                walls[dy, dx] = 1
+"""
+    ((_, said),) = found(margins, text)
+    assert "self.REACH is 0, so ways keep 0 cells" in said
