@@ -209,6 +209,24 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ("the rays are drawn in the opposite order: angles grow to the left", heading - angles),
         ("orientation.z is taken for the heading: it is the sine of half of it", np.sin(heading / 2) + angles),
         ("the heading is half of what it is: it is 2 * atan2(orientation.z, orientation.w)", heading / 2 + angles),
+        (
+            "the heading is made with 1 + 2 * (y * y + z * z), and it is 1 - 2 * (y * y + z * z)",
+            np.arctan2(np.sin(heading), 1 + 2 * np.sin(heading / 2) ** 2) + angles,
+        ),
+        (
+            "the two arguments of atan2 are exchanged where the heading is made: the sine comes first",
+            np.pi / 2 - heading + angles,
+        ),
+        (
+            "z and w are exchanged in the heading: it is 2 * atan2(orientation.z, orientation.w)",
+            np.pi - heading + angles,
+        ),
+        ("the heading is made by asin, which knows no angle beyond a right one", np.arcsin(np.sin(heading)) + angles),
+        ("the rays are spread over half a turn: they go from angle_min to angle_max", heading + angles / 2),
+        (
+            "the rays are spread over half a turn, from 0 on: they go from angle_min to angle_max",
+            heading + (angles - angles[0]) / 2,
+        ),
         ("the heading is added two times", 2 * heading + angles),
         ("the heading has lost its sign, as by acos: a turn to the right is negative", np.abs(heading) + angles),
         ("orientation.w is taken for the heading: it is the cosine of half of it", np.cos(heading / 2) + angles),

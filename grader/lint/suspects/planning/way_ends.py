@@ -88,8 +88,8 @@ def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     loop.lineno,
                     "way",
-                    f"the loop over {ast.unparse(loop.iter)} ends in its first pass, line {loop.body[-1].lineno}, so it "
-                    "always takes the first cell of the way, in which the robot stands: a condition must say which "
+                    f"the loop over {ast.unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
+                    "it always takes the first cell of the way, in which the robot stands: a condition must say which "
                     "cell is far enough",
                 )
 
