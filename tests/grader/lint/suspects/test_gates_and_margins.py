@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.lint.suspects.planning import closed_gates, forgetting, margins, own_places, way_ends
+from gz_course.grader.lint.suspects.planning import closed_gates, forgetting, made_cells, margins, own_places, way_ends
 from gz_course.grader.lint.suspects.steering import made_poses, standstills
 
 
@@ -201,3 +201,75 @@ class Planner:
 """
     ((_, said),) = found(margins, text)
     assert "self.REACH is 0, so ways keep 0 cells" in said
+
+
+CELLS = """
+def place(self):
+    grid = np.zeros((HEIGHT, WIDTH))
+    i, j = int((self.px - X0) / RES), int((self.py - Y0) / RES)
+    {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("x = X0 + (j + 0.5) * RES", "makes x of a number of cells that was made of y"),
+        ("x, y = X0 + (i + 0.5) * RES, Y0 + (j + 0.5) * RES", ""),
+        ("value = grid[i, j]", "the index is [row, column]"),
+        ("value = grid[j, i]", ""),
+    ],
+)
+def test_cells_that_are_made_of_the_other_coordinate(line, words):
+    said = [each for _, each in found(made_cells, CELLS.format(line))]
+    assert words in said[0] if words else said == []
+
+
+WAY = """
+class Mapper:
+    def __init__(self):
+        self.way = []
+    def plan(self):
+        if self.way:
+            return
+        self.way = self.search()
+    def aim(self):
+        for cell in self.way:
+            {}
+        return self.way[-1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "more", "number"),
+    [("return cell", "", 1), ("if far(cell): return cell", "", 0), ("continue", "", 0)],
+)
+def test_a_loop_over_a_way_that_returns_in_its_first_pass(line, more, number):
+    assert len(list(way_ends.left_in_the_first_pass(ast.parse(WAY.format(line) + more)))) == number
+
+
+@pytest.mark.parametrize(("more", "number"), [("", 1), ("    def go(self):\n        self.way.pop(0)\n", 0)])
+def test_a_way_that_nothing_takes_away_again(more, number):
+    assert len(list(closed_gates.kept_way(ast.parse(WAY.format("pass") + more)))) == number
+
+
+def test_rates_of_a_twist_with_a_name_are_added_up():
+    text = "def on_odom(m):  # Odometry\n    t = m.twist.twist\n    pose.yaw += t.angular.z * 0.02\nkind = Odometry\n"
+    assert len(list(made_poses.summed_rates(ast.parse(text)))) == 1
+    assert not list(made_poses.summed_rates(ast.parse(text.replace("twist.twist", "pose.pose"))))
+
+
+@pytest.mark.parametrize(("number", "words"), [("1", "keep 1 cell"), ("3", "")])
+def test_a_margin_whose_parts_are_assigned_together(number, words):
+    text = f"""
+kind = OccupancyGrid
+WIDTH, REACH = 100, {number}
+for dy in range(-REACH, REACH + 1):
+    for dx in range(-REACH, REACH + 1):
+        walls[dy, dx] = 1
+"""
+    said = [
+        each
+        for _, each in found(margins, f"def widened(walls):\n    {text.strip().replace(chr(10), chr(10) + '    ')}")
+    ]
+    assert words in said[0] if words else said == []
