@@ -206,7 +206,7 @@ def touched(recording, radius, at, place, there=""):
 def drives_while_turning(recording):
     """Return that the robot never slows down where it turns hard; empty if it does."""
     ahead, turning = commands(recording)
-    if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.5:
+    if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.9:
         return ""
     hard = np.abs(turning) > 0.8 * np.abs(turning).max()
     if hard.sum() < 10 or np.mean(ahead[hard] > 0.9 * ahead.max()) < 0.9:

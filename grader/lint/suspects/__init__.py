@@ -32,6 +32,7 @@ from gz_course.grader.lint.suspects.memory import (
     oldest,
 )
 from gz_course.grader.lint.suspects.planning import (
+    aims,
     closed_gates,
     forgetting,
     heaps,
@@ -117,6 +118,7 @@ LOOKS = (
     *ray_parts.LOOKS,
     *way_ends.LOOKS,
     *heaps.LOOKS,
+    *aims.LOOKS,
     *made_cells.LOOKS,
     *turning_signs.LOOKS,
     *closed_gates.LOOKS,

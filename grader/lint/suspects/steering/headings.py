@@ -98,6 +98,12 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
 def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    of_scans = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if OF_SCANS.search(ast.unparse(value)) and not called(value) & (TO_DEGREES | TO_RADIANS | {"int", "round"})
+    }
+    of_scans -= in_degrees
     for node in walk(tree):
         if not isinstance(node, ast.Call):
             continue
@@ -107,7 +113,8 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
             parts = {ast.unparse(each) for each in walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
                 yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
-        if name in TO_RADIANS and given and OF_SCANS.search(ast.unparse(given[0])):
+        of_scan = given and (OF_SCANS.search(ast.unparse(given[0])) or ast.unparse(given[0]) in of_scans)
+        if name in TO_RADIANS and of_scan and not _in_degrees(given[0]):
             yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"
 
 
