@@ -92,7 +92,7 @@ def layout(recording, parameters):
         f"frame_id is {shown(frame, 40)!r}": frame == "odom",
         "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
         f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
-        f"info.resolution is {size:g}, it is in metres": abs(size - RESOLUTION) < 1e-4,
+        f"info.resolution is {size:g}, but a cell is 0.1 m wide": abs(size - RESOLUTION) < 1e-4,
         f"info.origin is ({x:g}, {y:g}), {DRIVING.other_origin(x, y, GRID)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
         "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
         f"data has {number} numbers": number == WIDTH * HEIGHT,
@@ -285,6 +285,8 @@ def not_as_it_was_seen(recording, said, every):
         return "hardly any cell is free, only the hits are drawn: the cells between the robot and a hit are free"
     if (values < 0).mean() > EARLY and (said < 0).mean() > 0.999:
         return DRIVING.suspect(recording, "forgets", "cell") or "all cells of the map are unknown"
+    if (values < 0).mean() > EARLY and (said >= OCCUPIED).sum() >= FEWEST:
+        return DRIVING.not_free(said, passed, np.zeros_like(passed))
     between = (values > FREE) & (values < OCCUPIED)
     if between.mean() > EARLY:
         return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"

@@ -115,6 +115,13 @@ def slow_or_lost(recording):
         return f"the robot drove {way:.1f} m in {seconds:.0f} s: {planning or what_it_did(recording)}"
     if planning or suspect(recording, "wrap"):
         return planning or suspect(recording, "wrap")
+    _, turning = commands(recording)
+    for side, most in (("left", -turning.min(initial=0.0)), ("right", turning.max(initial=0.0))):
+        if most < 0.01 < np.abs(turning).mean() and turns > 2:
+            return (
+                f"angular.z never has the other sign: the robot turned to the {side} only, the long way round to all "
+                "that is on its other side: turn to the side on which the goal is"
+            )
     if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
         return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:

@@ -309,3 +309,9 @@ def test_the_number_of_unknown_cells(value, words):
     said[~seen], said[seen] = value, 0
     found = ARRANGED.other_unknown(said, seen)
     assert words in found if words else found == ""
+
+
+def test_a_robot_that_turns_to_one_side_only():
+    run = {"x": 4 * np.sin(NOW / 6), "y": 4 * np.cos(NOW / 6), "yaw": np.minimum(NOW, 13.0), "ahead": 0.5 + 0 * NOW}
+    assert "the robot turned to the left only" in DRIVING.slow_or_lost(recording(**run, turning=0.5 + 0 * NOW))
+    assert DRIVING.slow_or_lost(recording(**run, turning=np.sin(NOW))) == ""
