@@ -86,6 +86,10 @@ def sideways(recording):
     """Return that the robot is commanded to drive sideways; empty if it is not."""
     aside = recording.signal("topics/cmd_vel/linear/y").values
     _, turning = commands(recording)
+    for axis in "xy":
+        rolling = recording.signal(f"topics/cmd_vel/angular/{axis}").values
+        if np.mean(np.abs(rolling) > 0.02) > 0.1 if len(rolling) else False:
+            return f"angular.{axis} is up to {np.abs(rolling).max():.2f} rad/s: a robot on the floor turns by angular.z"
     if not len(aside) or np.mean(np.abs(aside) > 0.02) < 0.1:
         return ""
     never = " (angular.z is 0 in every command)" if not np.abs(turning).max() > 0.01 else ""
@@ -161,7 +165,8 @@ def what_it_did(recording):
     moves = np.flatnonzero((np.abs(ahead) > 0.01) | (np.abs(turning) > 0.01))
     last = float(times[moves[-1]]) if len(moves) else 0.0
     if last < 0.8 * times[-1]:
-        return f"all commands from {last:.0f} s on are 0, as if nothing were left to explore, or no way were found"
+        why = suspect(recording, "ray") or "as if nothing were left to explore, or no way were found"
+        return f"all commands from {last:.0f} s on are 0; {why}"
     if np.mean((np.abs(ahead) < 0.01) & (np.abs(turning) > 0.05)) > 0.5:
         return how_it_turned(recording)
     return "most of the time it stood or turned"

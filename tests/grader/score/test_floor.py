@@ -71,5 +71,8 @@ def test_rays_that_are_numbered_after_some_were_left_out():
 
 
 def test_headings_that_are_made_in_a_wrong_way():
-    said = {words.partition(" ")[0]: points for words, points in misplaced(one_ray(1.0, heading=pi / 2))}
-    assert said["z"] == pytest.approx(np.array([[0.05, 1.05]])) and "the" in said
+    poses = np.array([[0.05, 0.05, 0.0], [0.05, 0.05, pi / 2]])
+    turned = Scans(poses, np.full((2, 1), 1.0), np.zeros(1), np.full((2, 1), True), 3.0)
+    said = {words.partition(" ")[0]: points for words, points in misplaced(turned)}
+    assert said["z"] == pytest.approx(np.array([[-0.95, 0.05], [0.05, 1.05]]))
+    assert not any(words.startswith("z and w") for words, _ in misplaced(one_ray(1.0, heading=pi / 2)))
