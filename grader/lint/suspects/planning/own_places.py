@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, calls, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 CORNER_X = re.compile(
     r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
@@ -120,6 +120,26 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def corner_added(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `(x + origin_x) / resolution` where origin_x is sent as the origin of the map: it must be subtracted."""
+    sent = {
+        last_name(value)
+        for target, value in assigned(tree)
+        if re.search(r"origin\.position\.[xy]$", ast.unparse(target))
+    } - {""}
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(left=ast.BinOp(left=one, op=ast.Add(), right=other), op=ast.Div() | ast.FloorDiv()):
+                for point, corner in ((one, other), (other, one)):
+                    if last_name(corner) in sent and last_name(point) not in sent:
+                        yield (
+                            node.lineno,
+                            "cell",
+                            f"{ast.unparse(node)[:60]} adds the corner of the map, {ast.unparse(corner)}: a cell is "
+                            "counted from the corner, so subtract it",
+                        )
+
+
 def other_stride(tree: ast.AST) -> Iterator[Suspect]:
     """Find `row * height + column`, by which cells of different rows share a place."""
     for node in walk(tree):
@@ -138,4 +158,4 @@ def other_stride(tree: ast.AST) -> Iterator[Suspect]:
                         )
 
 
-LOOKS = (other_stride, unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)
+LOOKS = (corner_added, other_stride, unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)

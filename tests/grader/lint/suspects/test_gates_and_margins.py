@@ -273,3 +273,9 @@ for dy in range(-REACH, REACH + 1):
         for _, each in found(margins, f"def widened(walls):\n    {text.strip().replace(chr(10), chr(10) + '    ')}")
     ]
     assert words in said[0] if words else said == []
+
+
+@pytest.mark.parametrize(("sign", "number"), [("+", 1), ("-", 0)])
+def test_the_corner_is_subtracted(sign, number):
+    text = f"info.origin.position.x = self.grid.left\ncolumn = int((x {sign} self.left) / self.size)\n"
+    assert len(list(own_places.corner_added(ast.parse(text)))) == number
