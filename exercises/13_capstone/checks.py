@@ -121,6 +121,7 @@ def walls(recording, parameters):
         words = (
             DRIVING.unclear(said, wanted)
             or DRIVING.unchanged(*maps)
+            or DRIVING.suspect(recording, "threshold")
             or DRIVING.walls_missing(
                 said, wanted, earlier_walls(recording), DRIVING.suspect(recording, "forgets", "fades")
             )
@@ -143,10 +144,8 @@ def no_ghosts(recording, parameters):
         return Finding(False, expected, no_map(recording))
     marked = said >= OCCUPIED
     if marked.sum() < FEWEST:
-        scan = scans(recording, at)
-        return Finding(
-            False, expected, f"{marked.sum()} cells are occupied", round(at, 3), explanation=why(recording, said, scan)
-        )
+        words = why(recording, said, scans(recording, at))
+        return Finding(False, expected, f"{marked.sum()} cells are occupied", round(at, 3), explanation=words)
     share = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
     measured = f"{share:.0%} of {marked.sum()} occupied cells are at an obstacle"
     words = why(recording, said, scans(recording, at)) if share < TRUE else ""
@@ -216,7 +215,7 @@ def free(recording, parameters):
         words = next((f"your walls are right, but of your free cells {each}" for each in fitting), "")
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
-        words = DRIVING.not_free(said, *(way & ~hit for way in ways))
+        words = DRIVING.suspect(recording, "threshold") or DRIVING.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
@@ -283,6 +282,8 @@ def not_as_it_was_seen(recording, said, every):
         return f"{(values >= OCCUPIED).mean():.0%} of the cells that rays passed are occupied in the map: they are free"
     if (values < 0).mean() > TRUE and (said >= OCCUPIED).sum() >= FEWEST:
         return "hardly any cell is free, only the hits are drawn: the cells between the robot and a hit are free"
+    if (values < 0).mean() > NEVER_SEEN and (words := DRIVING.suspect(recording, "threshold")):
+        return words
     if (values < 0).mean() > EARLY and (said < 0).mean() > 0.999:
         return DRIVING.suspect(recording, "forgets", "cell") or "all cells of the map are unknown"
     if (values < 0).mean() > EARLY and (said >= OCCUPIED).sum() >= FEWEST:

@@ -40,6 +40,7 @@ from gz_course.grader.lint.suspects.planning import (
     margins,
     own_places,
     straight_goals,
+    thresholds,
     way_ends,
     ways,
 )
@@ -118,6 +119,7 @@ LOOKS = (
     *ray_parts.LOOKS,
     *way_ends.LOOKS,
     *heaps.LOOKS,
+    *thresholds.LOOKS,
     *aims.LOOKS,
     *made_cells.LOOKS,
     *turning_signs.LOOKS,

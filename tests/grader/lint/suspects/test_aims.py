@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.lint.suspects.planning import aims, forgetting, margins
+from gz_course.grader.lint.suspects.planning import aims, forgetting, margins, thresholds
 from gz_course.grader.lint.suspects.sensing import rays
 from gz_course.grader.lint.suspects.steering import headings
 
@@ -95,3 +95,11 @@ def test_an_angle_of_a_scan_with_a_name_is_no_number_of_degrees():
     assert len(said(headings.degrees_for_radians, text)) == 1
     text = "angle = math.degrees(scan.angle_min)\nbeam = heading + math.radians(angle)\n"
     assert not said(headings.degrees_for_radians, text)
+
+
+@pytest.mark.parametrize(
+    ("test", "number"),
+    [("self.passes > 60", 1), ("60 <= self.n_hit[c]", 1), ("self.passes > 2", 0), ("len(self.hits) > 60", 0)],
+)
+def test_a_cell_that_must_be_seen_many_times(test, number):
+    assert len(said(thresholds.many_observations, f"kind = OccupancyGrid\nshown = {test}\n")) == number
