@@ -80,6 +80,15 @@ def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
             given = [ast.unparse(each) for each in value.args] if isinstance(value, ast.Call) else []
             if not isinstance(value, ast.Call) or ast.unparse(value.func) not in keeps or not name.startswith("self."):
                 continue
+            twins = {ast.unparse(of): other for _, other, of in sets if other.startswith("self.") and other != name}
+            for each in (each for each in value.args if isinstance(each, ast.Call) and (each.args or each.keywords)):
+                if ast.unparse(each) in twins:
+                    yield (
+                        line,
+                        f"{ast.unparse(each)[:60]} is a second one here, beside {twins[ast.unparse(each)]}, so {name} "
+                        f"sees nothing of what comes into that: hand over {twins[ast.unparse(each)]}",
+                    )
+                    return
             for each in made & set(given):
                 later = [at for at, other, _ in sets if other == each and at > line]
                 again = [at for at, other, _ in sets if other == name and at > line]

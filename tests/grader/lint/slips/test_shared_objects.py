@@ -72,3 +72,9 @@ class Mapper:
 def test_what_is_replaced_after_it_was_handed_over(line, number):
     said = [each["said"] for each in slips(KEPT.format(line).encode())]
     assert sum("keeps that" in each for each in said) == number
+
+
+def test_a_second_map_that_is_handed_over():
+    text = KEPT.format("pass").replace("Planner(self.grid)", "Planner(Grid(100, 80))")
+    said = [each["said"] for each in slips(text.encode())]
+    assert any("is a second one here, beside self.grid" in each for each in said)

@@ -279,3 +279,11 @@ for dy in range(-REACH, REACH + 1):
 def test_the_corner_is_subtracted(sign, number):
     text = f"info.origin.position.x = self.grid.left\ncolumn = int((x {sign} self.left) / self.size)\n"
     assert len(list(own_places.corner_added(ast.parse(text)))) == number
+
+
+@pytest.mark.parametrize(
+    ("value", "number"), [("atan2(p.y, p.x)", 1), ("atan2(goal.y, goal.x)", 0), ("atan2(q.z, q.w)", 0)]
+)
+def test_the_direction_of_a_position_is_no_heading(value, number):
+    text = f"p = message.pose.pose.position\nyaw = math.{value}\n"
+    assert len(list(made_poses.heading_of_a_position(ast.parse(text)))) == number
