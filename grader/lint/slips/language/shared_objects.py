@@ -81,12 +81,12 @@ def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
             if not isinstance(value, ast.Call) or ast.unparse(value.func) not in keeps or not name.startswith("self."):
                 continue
             twins = {ast.unparse(of): other for _, other, of in sets if other.startswith("self.") and other != name}
-            for each in (each for each in value.args if isinstance(each, ast.Call) and (each.args or each.keywords)):
-                if ast.unparse(each) in twins:
+            for one in (each for each in value.args if isinstance(each, ast.Call) and (each.args or each.keywords)):
+                if ast.unparse(one) in twins:
                     yield (
                         line,
-                        f"{ast.unparse(each)[:60]} is a second one here, beside {twins[ast.unparse(each)]}, so {name} "
-                        f"sees nothing of what comes into that: hand over {twins[ast.unparse(each)]}",
+                        f"{ast.unparse(one)[:60]} is a second one here, beside {twins[ast.unparse(one)]}, so {name} "
+                        f"sees nothing of what comes into that: hand over {twins[ast.unparse(one)]}",
                     )
                     return
             for each in made & set(given):
