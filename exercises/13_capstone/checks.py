@@ -25,14 +25,15 @@ OFF = 0.15  # [m] from the middle of an occupied cell to an obstacle: one cell, 
 HITS = 3  # of the scanner, in one cell, that make it a wall which the map must show
 WALLS, TRUE, SEEN, NEVER_SEEN = 0.9, 0.92, 0.9, 0.05  # shares of cells
 FEWEST = 30  # cells; fewer say nothing about a map
-FITS, BACK = 0.8, 0.6  # of the occupied cells, to fit a misconception; of what it would draw, that is occupied
+FITS = 0.8  # of the occupied cells, to fit a misconception
 EARLY = 0.5  # of the occupied cells of the first map that the scanner had not hit yet: the map was known before
 LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
 MOVED = 0.3  # [m]
 MARGIN = 0.003  # [m] between the robot and what it does not touch
 MAP = "topics/map"
-DRIVING, ARRANGED = (
-    SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name)))) for name in ("driving.py", "arrangements.py")
+DRIVING, ARRANGED, RIVALS = (
+    SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name))))
+    for name in ("driving.py", "arrangements.py", "rivals.py")
 )
 
 
@@ -91,7 +92,7 @@ def layout(recording, parameters):
         f"frame_id is {shown(frame, 40)!r}": frame == "odom",
         "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
         f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
-        f"info.resolution is {size:g}, it is in metres": abs(size - RESOLUTION) < 1e-4,
+        f"info.resolution is {size:g}, but a cell is 0.1 m wide": abs(size - RESOLUTION) < 1e-4,
         f"info.origin is ({x:g}, {y:g}), {DRIVING.other_origin(x, y, GRID)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
         "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
         f"data has {number} numbers": number == WIDTH * HEIGHT,
@@ -120,6 +121,7 @@ def walls(recording, parameters):
         words = (
             DRIVING.unclear(said, wanted)
             or DRIVING.unchanged(*maps)
+            or DRIVING.suspect(recording, "threshold")
             or DRIVING.walls_missing(
                 said, wanted, earlier_walls(recording), DRIVING.suspect(recording, "forgets", "fades")
             )
@@ -142,10 +144,8 @@ def no_ghosts(recording, parameters):
         return Finding(False, expected, no_map(recording))
     marked = said >= OCCUPIED
     if marked.sum() < FEWEST:
-        scan = scans(recording, at)
-        return Finding(
-            False, expected, f"{marked.sum()} cells are occupied", round(at, 3), explanation=why(recording, said, scan)
-        )
+        words = why(recording, said, scans(recording, at))
+        return Finding(False, expected, f"{marked.sum()} cells are occupied", round(at, 3), explanation=words)
     share = float((shapes(recording).nearest(middles()[marked.ravel()]) <= OFF).mean())
     measured = f"{share:.0%} of {marked.sum()} occupied cells are at an obstacle"
     words = why(recording, said, scans(recording, at)) if share < TRUE else ""
@@ -161,10 +161,7 @@ def known_before(recording):
 
     Walls that do stand there are forgiven: only other rooms show that they were known by heart.
     """
-    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
-        said, at = grid(recording, number)
-        if said is None or (said >= OCCUPIED).sum() < FEWEST:
-            continue
+    for said, at in with_walls(recording):
         hit = cells(hits(scans(recording, at))) > 0
         marked = said >= OCCUPIED
         new = float((~grown(grown(hit)))[marked].mean())
@@ -218,7 +215,7 @@ def free(recording, parameters):
         words = next((f"your walls are right, but of your free cells {each}" for each in fitting), "")
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
-        words = DRIVING.not_free(said, *(way & ~hit for way in ways))
+        words = DRIVING.suspect(recording, "threshold") or DRIVING.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
@@ -283,8 +280,14 @@ def not_as_it_was_seen(recording, said, every):
     values = said[passed]
     if (values >= OCCUPIED).mean() > EARLY:
         return f"{(values >= OCCUPIED).mean():.0%} of the cells that rays passed are occupied in the map: they are free"
+    if (values < 0).mean() > TRUE and (said >= OCCUPIED).sum() >= FEWEST:
+        return "hardly any cell is free, only the hits are drawn: the cells between the robot and a hit are free"
+    if (values < 0).mean() > NEVER_SEEN and (words := DRIVING.suspect(recording, "threshold")):
+        return words
     if (values < 0).mean() > EARLY and (said < 0).mean() > 0.999:
         return DRIVING.suspect(recording, "forgets", "cell") or "all cells of the map are unknown"
+    if (values < 0).mean() > EARLY and (said >= OCCUPIED).sum() >= FEWEST:
+        return DRIVING.not_free(said, passed, np.zeros_like(passed))
     between = (values > FREE) & (values < OCCUPIED)
     if between.mean() > EARLY:
         return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"
@@ -365,36 +368,33 @@ def why(recording, said, scan):
         if solid[changed].mean() >= TRUE > 0.85 > solid[marked].mean():
             return words
     words = DRIVING.thick(recording, said, hit) or drawn_elsewhere(recording)
-    if words := words or DRIVING.suspect(recording, "counter", "pose"):
+    if words := words or DRIVING.suspect(recording, "counter", "pose", "stride"):
         return words
-    return first_arcs(recording, solid)
+    return first_arcs(recording, solid) or DRIVING.LAGS.drawn_late(said, marked, solid, scan)
 
 
 def first_arcs(recording, solid):
     """Return that the first map with walls has them where rays without a hit end; empty if it has not."""
-    for number in range(len(recording.arrays(f"{MAP}/data")[0])):
-        said, at = grid(recording, number)
-        if said is not None and (said >= OCCUPIED).sum() >= FEWEST:
-            scan = scans(recording, at)
-            return ARRANGED.arcs(said >= OCCUPIED, solid, cells(hits(scan, which=~scan.hit)) > 0, said)
+    for said, at in with_walls(recording):
+        scan = scans(recording, at)
+        return ARRANGED.arcs(said >= OCCUPIED, solid, cells(hits(scan, which=~scan.hit)) > 0, said)
     return ""
 
 
 def drawn_elsewhere(recording):
-    """Return the mistake with pose or angles by which the first map with walls was drawn; empty if none fits.
+    """Return the mistake with pose or angles by which the first map with walls was drawn; empty if none fits."""
 
-    It holds few scans, so that the walls of different scans do not cover each other yet.
-    """
+    def compared(said, at):
+        scan = scans(recording, at)
+        return said >= OCCUPIED, cells(hits(scan)) > 0, ((each, cells(points) > 0) for each, points in misplaced(scan))
+
+    words = RIVALS.best(compared(said, at) for said, at in with_walls(recording))
+    return (("heading" in words or "pose is" in words) and DRIVING.suspect(recording, "heading")) or words
+
+
+def with_walls(recording):
+    """Yield each map that has walls, and when it came [s]."""
     for number in range(len(recording.arrays(f"{MAP}/data")[0])):
         said, at = grid(recording, number)
-        if said is None or (said >= OCCUPIED).sum() < FEWEST:
-            continue
-        marked, scan = said >= OCCUPIED, scans(recording, at)
-        best, words = grown(cells(hits(scan)) > 0)[marked].mean() + 0.2, ""
-        for each, points in misplaced(scan):
-            drawn = cells(points) > 0
-            share, back = grown(drawn)[marked].mean(), grown(marked)[drawn].mean()  # what is scattered fits all walls
-            if share >= FITS and share > best and back >= BACK:
-                best, words = share, each
-        return ("heading" in words and DRIVING.suspect(recording, "heading")) or words
-    return ""
+        if said is not None and (said >= OCCUPIED).sum() >= FEWEST:
+            yield said, at

@@ -1,10 +1,17 @@
 """What is wrong with how a robot explored, or with what its map leaves out; `checks.py` asks for it."""
 
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
 import numpy as np
 
 from gz_course.grader.score.floor import grown
 from gz_course.grader.score.suspects import suspect
 
+LAST, LAGS = (
+    SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name)))) for name in ("last_commands.py", "lags.py")
+)
 AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was driven at
 MOVED = 0.3  # [m]
 SLOW = 0.15  # [m/s]
@@ -79,6 +86,10 @@ def sideways(recording):
     """Return that the robot is commanded to drive sideways; empty if it is not."""
     aside = recording.signal("topics/cmd_vel/linear/y").values
     _, turning = commands(recording)
+    for axis in "xy":
+        rolling = recording.signal(f"topics/cmd_vel/angular/{axis}").values
+        if np.mean(np.abs(rolling) > 0.02) > 0.1 if len(rolling) else False:
+            return f"angular.{axis} is up to {np.abs(rolling).max():.2f} rad/s: a robot on the floor turns by angular.z"
     if not len(aside) or np.mean(np.abs(aside) > 0.02) < 0.1:
         return ""
     never = " (angular.z is 0 in every command)" if not np.abs(turning).max() > 0.01 else ""
@@ -96,7 +107,7 @@ def slow_or_lost(recording):
     x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
     seconds = recording.end_ns / 1e9
     turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
-    if aside := sideways(recording) or backwards(recording):
+    if aside := sideways(recording) or backwards(recording) or suspect(recording, "sleep") or LAST.kept(recording):
         return aside
     planning = suspect(recording, *PLANNING) or suspect(recording, "heading", "angle") or suspect(recording, "wide")
     if turns > TURNS and way < 0.1 * seconds:
@@ -108,6 +119,13 @@ def slow_or_lost(recording):
         return f"the robot drove {way:.1f} m in {seconds:.0f} s: {planning or what_it_did(recording)}"
     if planning or suspect(recording, "wrap"):
         return planning or suspect(recording, "wrap")
+    _, turning = commands(recording)
+    for side, most in (("left", -turning.min(initial=0.0)), ("right", turning.max(initial=0.0))):
+        if most < 0.01 < np.abs(turning).mean() and turns > 2:
+            return (
+                f"angular.z never has the other sign: the robot turned to the {side} only, the long way round to all "
+                "that is on its other side: turn to the side on which the goal is"
+            )
     if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
         return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
     if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
@@ -147,7 +165,8 @@ def what_it_did(recording):
     moves = np.flatnonzero((np.abs(ahead) > 0.01) | (np.abs(turning) > 0.01))
     last = float(times[moves[-1]]) if len(moves) else 0.0
     if last < 0.8 * times[-1]:
-        return f"all commands from {last:.0f} s on are 0, as if nothing were left to explore, or no way were found"
+        why = suspect(recording, "ray") or "as if nothing were left to explore, or no way were found"
+        return f"all commands from {last:.0f} s on are 0; {why}"
     if np.mean((np.abs(ahead) < 0.01) & (np.abs(turning) > 0.05)) > 0.5:
         return how_it_turned(recording)
     return "most of the time it stood or turned"
@@ -178,7 +197,9 @@ def touched(recording, radius, at, place, there=""):
     kinds = "sleep", "forgets", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
     if said := suspect(recording, *kinds, "straight"):
         return said
-    if said := sideways(recording) or backwards(recording) or drives_while_turning(recording):
+    if said := LAST.kept(recording, at / 1e9) or sideways(recording) or backwards(recording):
+        return said
+    if said := drives_while_turning(recording):
         return said
     if abs(bearing) > AHEAD and (said := suspect(recording, "narrow")):
         return said
@@ -197,7 +218,7 @@ def touched(recording, radius, at, place, there=""):
 def drives_while_turning(recording):
     """Return that the robot never slows down where it turns hard; empty if it does."""
     ahead, turning = commands(recording)
-    if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.5:
+    if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.9:
         return ""
     hard = np.abs(turning) > 0.8 * np.abs(turning).max()
     if hard.sum() < 10 or np.mean(ahead[hard] > 0.9 * ahead.max()) < 0.9:

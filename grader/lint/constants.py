@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from math import ceil, floor
 
 from gz_course.grader.lint.syntax import walk
@@ -31,8 +31,8 @@ def named_numbers(tree: ast.AST) -> dict[str, Number]:
     others: set[str] = set()
     for node in walk(tree):
         if isinstance(node, ast.Assign):
-            for target in node.targets:
-                value, name = number(node.value, found), ast.unparse(target)
+            for target, given in _pairs(node):
+                value, name = number(given, found), ast.unparse(target)
                 if value is None or found.get(name, value) != value:
                     others.add(name)
                 else:
@@ -46,6 +46,16 @@ def named_numbers(tree: ast.AST) -> dict[str, Number]:
         elif isinstance(node, ast.arg):
             others.add(node.arg)
     return {name: value for name, value in found.items() if name not in others}
+
+
+def _pairs(node: ast.Assign) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield the targets of an assignment with their values, those of `width, height = 100, 80` one by one."""
+    for target in node.targets:
+        if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
+            yield from zip(target.elts, node.value.elts, strict=False)
+        else:
+            parts = target.elts if isinstance(target, ast.Tuple) else [target]
+            yield from ((part, node.value) for part in parts)
 
 
 def number(node: ast.AST | None, names: Mapping[str, Number]) -> Number | None:

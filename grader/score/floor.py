@@ -15,6 +15,7 @@ from gz_course.grader.record.reading import Poses, Recording
 from gz_course.grader.score.true_pose import heading, true_poses
 
 SCAN = "topics/scan"
+TURNED = 1.0  # [rad], enough to tell headings apart
 STOOD = 0.3  # [m] a robot that has driven less stands where it began
 Array = np.ndarray
 
@@ -209,6 +210,16 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ("the rays are drawn in the opposite order: angles grow to the left", heading - angles),
         ("orientation.z is taken for the heading: it is the sine of half of it", np.sin(heading / 2) + angles),
         ("the heading is half of what it is: it is 2 * atan2(orientation.z, orientation.w)", heading / 2 + angles),
+        (
+            "the heading is made with 1 + 2 * (y * y + z * z), and it is 1 - 2 * (y * y + z * z)",
+            np.arctan2(np.sin(heading), 1 + 2 * np.sin(heading / 2) ** 2) + angles,
+        ),
+        ("the heading is made by asin, which knows no angle beyond a right one", np.arcsin(np.sin(heading)) + angles),
+        ("the rays are spread over half a turn: they go from angle_min to angle_max", heading + angles / 2),
+        (
+            "the rays are spread over half a turn, from 0 on: they go from angle_min to angle_max",
+            heading + (angles - angles[0]) / 2,
+        ),
         ("the heading is added two times", 2 * heading + angles),
         ("the heading has lost its sign, as by acos: a turn to the right is negative", np.abs(heading) + angles),
         ("orientation.w is taken for the heading: it is the cosine of half of it", np.cos(heading / 2) + angles),
@@ -218,4 +229,16 @@ def misplaced(scan: Scans) -> Iterator[tuple[str, Array]]:
         ),
     ):
         yield words, hits(scan, angles=direction)
+    if len(pose) and np.ptp(heading) > TURNED:  # any wrong heading looks like another one while it stays the same
+        for words, other_heading in (
+            ("the two arguments of atan2 are exchanged where the heading is made: the sine comes first", np.pi / 2),
+            ("z and w are exchanged in the heading: it is 2 * atan2(orientation.z, orientation.w)", np.pi),
+        ):
+            yield words, hits(scan, angles=other_heading - heading + angles)
+    if len(pose) and not scan.hit.all():
+        yield (
+            "rays without a hit are left out before the others are numbered: the angle of ray i is angle_min + i * "
+            "angle_increment, where i counts all rays",
+            hits(scan, angles=heading + angles[np.maximum(np.cumsum(scan.hit, axis=1) - 1, 0)]),
+        )
     yield "sine and cosine are exchanged", hits(scan, angles=np.pi / 2 - heading - angles)

@@ -16,11 +16,22 @@ ARRANGED = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
 NOW = np.arange(0.0, 36.0, 0.2)
 
 
-def recording(x=0 * NOW, y=0 * NOW, yaw=0 * NOW, ahead=0 * NOW, turning=0 * NOW, aside=0 * NOW, suspects=(), tests=()):
+def recording(
+    x=0 * NOW,
+    y=0 * NOW,
+    yaw=0 * NOW,
+    ahead=0 * NOW,
+    turning=0 * NOW,
+    aside=0 * NOW,
+    suspects=(),
+    tests=(),
+    rolling=0 * NOW,
+):
     """A recording as these functions see it."""
     signals = {f"truth/robot/{name}": values for name, values in (("x", x), ("y", y), ("yaw", yaw))}
     signals["truth/robot/distance"] = np.cumsum(np.hypot(np.diff(x, prepend=x[:1]), np.diff(y, prepend=y[:1])))
     signals |= {"topics/cmd_vel/linear/y": aside, "topics/cmd_vel/linear/x": ahead, "topics/cmd_vel/angular/z": turning}
+    signals |= {"topics/cmd_vel/angular/x": rolling, "topics/cmd_vel/angular/y": 0 * NOW}
     times = np.round(NOW * 1e9).astype(np.int64)
     return SimpleNamespace(
         signal=lambda name: Signal(times[: len(signals[name])], signals[name]),
@@ -309,3 +320,22 @@ def test_the_number_of_unknown_cells(value, words):
     said[~seen], said[seen] = value, 0
     found = ARRANGED.other_unknown(said, seen)
     assert words in found if words else found == ""
+
+
+def test_a_robot_that_turns_to_one_side_only():
+    run = {"x": 4 * np.sin(NOW / 6), "y": 4 * np.cos(NOW / 6), "yaw": np.minimum(NOW, 13.0), "ahead": 0.5 + 0 * NOW}
+    assert "the robot turned to the left only" in DRIVING.slow_or_lost(recording(**run, turning=0.5 + 0 * NOW))
+    assert DRIVING.slow_or_lost(recording(**run, turning=np.sin(NOW))) == ""
+
+
+def test_a_robot_that_is_commanded_to_turn_about_another_axis():
+    run = recording(x=0.05 * NOW, ahead=0.1 + 0 * NOW, rolling=0.9 + 0 * NOW)
+    assert "angular.x is up to 0.90 rad/s" in DRIVING.slow_or_lost(run)
+
+
+def test_commands_that_end_although_something_is_near():
+    ahead = np.where(NOW < 5, 0.3, 0.0)
+    near = {"line": 9, "about": "ray", "said": "the nearest in any direction"}
+    said = DRIVING.what_it_did(recording(ahead=ahead, suspects=[near]))
+    assert said == "all commands from 5 s on are 0; line 9: the nearest in any direction"
+    assert "as if nothing were left" in DRIVING.what_it_did(recording(ahead=ahead))

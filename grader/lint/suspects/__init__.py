@@ -33,11 +33,15 @@ from gz_course.grader.lint.suspects.memory import (
     oldest,
 )
 from gz_course.grader.lint.suspects.planning import (
+    aims,
     closed_gates,
     forgetting,
+    heaps,
+    made_cells,
     margins,
     own_places,
     straight_goals,
+    thresholds,
     way_ends,
     ways,
 )
@@ -119,6 +123,10 @@ LOOKS = (
     *flags.LOOKS,
     *ray_parts.LOOKS,
     *way_ends.LOOKS,
+    *heaps.LOOKS,
+    *thresholds.LOOKS,
+    *aims.LOOKS,
+    *made_cells.LOOKS,
     *turning_signs.LOOKS,
     *closed_gates.LOOKS,
     *margins.LOOKS,

@@ -16,6 +16,7 @@ import re
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.steps import told, window_of
@@ -47,8 +48,33 @@ def rate(recording: Recording, parameters: Table) -> Finding:
     gap, at = float(gaps.max()), float(edges[gaps.argmax()])
     measured = f"{told(hertz)} messages a simulated second; the longest gap was {told(gap)} s, from {told(at)} s on"
     passed = bool(least <= hertz <= most and gap <= longest + 1e-9)
-    words = "" if passed or hertz >= least else _every_nth(recording, topic, times)
+    words = "" if passed else _why_so_seldom(recording, topic, times, hertz < least, gap if gap > longest else 0.0)
     return Finding(passed, expected, measured, round(at, 3), timing=True, explanation=words)
+
+
+def _why_so_seldom(recording: Recording, topic: str, times: np.ndarray, few: bool, gap: float) -> str:
+    """Return what lets messages come too seldom, if the file and the times between them say so; empty if not.
+
+    `gap` is the longest time without one [s], if it is too long.
+    """
+    gaps = np.diff(times)
+    if few and (words := _every_nth(recording, topic, times)):
+        return words
+    if len(times) < FEWEST or not (few or gap):
+        return ""
+    even = float(np.mean(np.abs(gaps - np.median(gaps)) < 0.1 * np.median(gaps)))
+    if gap > 2 * np.median(gaps):
+        even = 0.0
+    rhythm = [each for each in recording.facts().get("rhythm", []) if each["topic"] == f"/{topic}"]
+    for each in rhythm if few else ():
+        if even >= MOSTLY and abs(each.get("period", 0) / np.median(gaps) - 1) < 0.1:
+            return shown(f"line {each['line']}: {each['said']}", 300)
+    if even >= MOSTLY:
+        return ""
+    words = next((f"line {each['line']}: {each['said']}" for each in rhythm if "period" not in each), "")
+    if words:
+        return shown(f"{words}, so no message comes in between: publish in each call of a timer of its own", 400)
+    return suspect(recording, "sleep")
 
 
 def _every_nth(recording: Recording, topic: str, times: np.ndarray) -> str:

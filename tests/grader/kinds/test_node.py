@@ -8,7 +8,7 @@ from gz_course.grader.kinds.node import plan
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.submission.intake import take_in
 
-NEUTRAL = {"origins", "conditions", "delays", "before_speeds", "of_the_drive"}
+NEUTRAL = {"origins", "conditions", "delays", "before_speeds", "of_the_drive", "rhythm"}
 
 
 def suspicious(facts):

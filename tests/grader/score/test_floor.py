@@ -61,3 +61,18 @@ def test_grows_by_one_cell_in_all_directions_but_not_around_the_edge():
     marked = np.zeros((HEIGHT, WIDTH), dtype=bool)
     marked[0, 0] = marked[10, 10] = True
     assert grown(marked).sum() == 4 + 9
+
+
+def test_rays_that_are_numbered_after_some_were_left_out():
+    scan = Scans(np.zeros((1, 3)), np.array([[np.inf, 1.0]]), np.array([0.0, pi / 2]), np.array([[False, True]]), 3.0)
+    said = {words.partition(":")[0]: points for words, points in misplaced(scan)}
+    numbered = said["rays without a hit are left out before the others are numbered"]
+    assert numbered == pytest.approx(np.array([[1.0, 0.0]]))
+
+
+def test_headings_that_are_made_in_a_wrong_way():
+    poses = np.array([[0.05, 0.05, 0.0], [0.05, 0.05, pi / 2]])
+    turned = Scans(poses, np.full((2, 1), 1.0), np.zeros(1), np.full((2, 1), True), 3.0)
+    said = {words.partition(" ")[0]: points for words, points in misplaced(turned)}
+    assert said["z"] == pytest.approx(np.array([[-0.95, 0.05], [0.05, 1.05]]))
+    assert not any(words.startswith("z and w") for words, _ in misplaced(one_ray(1.0, heading=pi / 2)))

@@ -134,4 +134,33 @@ class _Kinds:
         return ast.unparse(of) if self._kind(of, node.lineno) == "filtered" else ""
 
 
-LOOKS = (numbered_after_filtering,)
+def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
+    """Find `angle += scan.angle_increment` behind a `continue` of its loop, or below an `if` that looks at the ray."""
+    for loop in (node for node in walk(tree) if isinstance(node, ast.For)):
+        if not any(each in ast.unparse(loop.iter) for each in ("ranges", "zip(", "enumerate(", "range(")):
+            continue
+        left: ast.If | None = None
+        for statement in loop.body:
+            steps = [each for each in walk(statement) if _steps(each)]
+            above = statement if isinstance(statement, ast.If) and not _steps(statement) else None
+            if steps and (left is not None or (above is not None and len(steps) < 2 and not above.orelse)):
+                test = left if left is not None else above
+                assert test is not None and isinstance(steps[0], ast.AugAssign)
+                yield (
+                    steps[0].lineno,
+                    f"{ast.unparse(steps[0])} is not reached for a ray that line {test.lineno} leaves out, so all rays "
+                    "behind it get the angle of another one: the angle grows with each ray, also with those that are "
+                    "left out",
+                )
+                return
+            if steps:
+                break
+            if isinstance(statement, ast.If) and any(isinstance(each, ast.Continue) for each in statement.body):
+                left = left or statement
+
+
+def _steps(node: ast.AST) -> bool:
+    return isinstance(node, ast.AugAssign) and "angle_increment" in ast.unparse(node.value)
+
+
+LOOKS = (numbered_after_filtering, left_out_before_the_next_angle)

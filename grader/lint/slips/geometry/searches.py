@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, functions, walk
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, walk
 
 LARGE = 50.0  # more than what a lidar of a small robot measures [m]
 LIMITS = frozenset({"range_min", "range_max"})
@@ -103,4 +103,31 @@ def _number(loop: ast.For | ast.comprehension) -> str:
     return ""
 
 
-LOOKS = (begins_at_an_end, numbers_for_ranges)
+def relaxed_upwards(tree: ast.AST) -> Iterator[Place]:
+    """Find `if new > cost[cell]: cost[cell] = new` in a search that goes on from the cell."""
+    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
+        match node.test:
+            case ast.Compare(left=new, ops=[ast.Gt() | ast.GtE()], comparators=[known]):
+                pass
+            case ast.Compare(left=known, ops=[ast.Lt() | ast.LtE()], comparators=[new]):
+                pass
+            case _:
+                continue
+        of = known.func.value if isinstance(known, ast.Call) and isinstance(known.func, ast.Attribute) else None
+        of = known.value if isinstance(known, ast.Subscript) else of
+        stored = any(
+            isinstance(target, ast.Subscript)
+            and of is not None
+            and ast.unparse(target.value) == ast.unparse(of)
+            and ast.unparse(value) == ast.unparse(new)
+            for target, value in assigned(node)
+        )
+        if stored and any(name in ("heappush", "put", "append") for _, name in calls(node)):
+            yield (
+                node.lineno,
+                f"`{ast.unparse(node.test)[:60]}` takes a way that is longer than the one that is known, so the costs "
+                "grow without end and the search goes on for ever: a way is better if its cost is less, <",
+            )
+
+
+LOOKS = (relaxed_upwards, begins_at_an_end, numbers_for_ranges)

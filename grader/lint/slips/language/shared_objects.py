@@ -60,4 +60,45 @@ def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
-LOOKS = (one_object_for_two, kept_by_the_class)
+def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.planner = Planner(self.grid)` with another `self.grid = ...` later: the planner keeps the first."""
+    keeps = {
+        node.name
+        for node in walk(tree)
+        if isinstance(node, ast.ClassDef)
+        for method in node.body
+        if isinstance(method, ast.FunctionDef) and method.name == "__init__"
+        for target, value in assigned(method)
+        if isinstance(target, ast.Attribute) and ast.unparse(value) in {each.arg for each in method.args.args[1:]}
+    }
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        sets = [(target.lineno, ast.unparse(target), value) for target, value in assigned(owner)]
+        made = {
+            name for _, name, value in sets if isinstance(value, ast.Call) and ast.unparse(value.func)[:1].isupper()
+        }
+        for line, name, value in sets:
+            given = [ast.unparse(each) for each in value.args] if isinstance(value, ast.Call) else []
+            if not isinstance(value, ast.Call) or ast.unparse(value.func) not in keeps or not name.startswith("self."):
+                continue
+            twins = {ast.unparse(of): other for _, other, of in sets if other.startswith("self.") and other != name}
+            for one in (each for each in value.args if isinstance(each, ast.Call) and (each.args or each.keywords)):
+                if ast.unparse(one) in twins:
+                    yield (
+                        line,
+                        f"{ast.unparse(one)[:60]} is a second one here, beside {twins[ast.unparse(one)]}, so {name} "
+                        f"sees nothing of what comes into that: hand over {twins[ast.unparse(one)]}",
+                    )
+                    return
+            for each in made & set(given):
+                later = [at for at, other, _ in sets if other == each and at > line]
+                again = [at for at, other, _ in sets if other == name and at > line]
+                if later and not again:
+                    yield (
+                        later[0],
+                        f"{each} is made anew here, but {name} got the one before it (line {line}) and keeps that: "
+                        f"what comes into the new one is never seen by {name}; make {each} once",
+                    )
+                    return
+
+
+LOOKS = (replaced_after_it_was_handed_over, one_object_for_two, kept_by_the_class)

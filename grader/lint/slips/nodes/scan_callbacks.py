@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.syntax import Place, calls, functions, left_early, walk
@@ -100,4 +101,25 @@ def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
                     break
 
 
-LOOKS = (sleeping, kept_defaults, one_ray_skips_the_scan, published_for_each_ray)
+def ended_by_an_invalid_ray(tree: ast.AST) -> Iterator[Place]:
+    """Find `return` or `break` in a loop over all rays where a ray is not valid: the rays behind it are lost."""
+    for loop in (node for node in walk(tree) if isinstance(node, ast.For)):
+        if ".ranges" not in ast.unparse(loop.iter):
+            continue
+        for node in (each for each in loop.body if isinstance(each, ast.If) and len(each.body) == 1):
+            leaves = node.body[0]
+            ends = isinstance(leaves, ast.Break) or (isinstance(leaves, ast.Return) and leaves.value is None)
+            text = ast.unparse(node.test)
+            invalid = re.search(
+                r"not (?:\w+\.)?isfinite\(|(?<!not )(?<!not math\.)(?<!not np\.)\b(?:isinf|isnan)\(|== .*inf", text
+            )
+            if ends and invalid and "enumerate" not in text and not node.orelse and len(loop.body) > 1:
+                yield (
+                    leaves.lineno,
+                    f"{ast.unparse(leaves)} ends the whole loop over the rays at the first one that is not valid, so "
+                    "the rays behind it are left out: continue goes on with the next ray",
+                )
+                return
+
+
+LOOKS = (ended_by_an_invalid_ray, sleeping, kept_defaults, one_ray_skips_the_scan, published_for_each_ray)

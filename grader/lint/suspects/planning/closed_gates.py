@@ -57,6 +57,37 @@ def planned_once(tree: ast.AST) -> Iterator[Suspect]:
                             yield node.lineno, "way", _once(function.name, f"{ast.unparse(left)} = {other[-1]}")
 
 
+def kept_way(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a function that returns while there is a way, and alone sets it: nothing takes the way away again."""
+    for function in functions(tree):
+        for node in (each for each in function.body if isinstance(each, ast.If)):
+            match node.test:
+                case ast.Attribute() as way if isinstance(node.body[-1], ast.Return) and len(node.body) == 1:
+                    name = ast.unparse(way)
+                case _:
+                    continue
+            changed = any(
+                part in ast.unparse(other)
+                for other in functions(tree)
+                if other.name != "__init__"
+                for part in (f"{name}.pop", f"{name}.clear", f"{name}.remove", f"del {name}", f"{name} = []")
+            )
+            makers = {
+                other.name for other in functions(tree) if any(ast.unparse(one) == name for one, _ in assigned(other))
+            }
+            read = any(
+                f"in {name}:" in ast.unparse(each) or f"{name}[" in ast.unparse(each) for each in functions(tree)
+            )
+            if read and not changed and function.name in makers <= {function.name, "__init__"}:
+                yield (
+                    node.lineno,
+                    "way",
+                    f"{function.name} returns while `{name}` holds anything, and nothing empties it: the first way is "
+                    "kept for ever, also when the robot is at its end. Take out the cells that are reached, or plan "
+                    "again each time",
+                )
+
+
 def _once(name: str, line: str) -> str:
     return (
         f"{name} returns here for ever once it has set `{line}`, which nothing sets back: a way is planned only once, "
@@ -93,4 +124,4 @@ def _guards(tree: ast.AST, name: str) -> bool:
     return False
 
 
-LOOKS = (finished_for_ever, planned_once)
+LOOKS = (finished_for_ever, planned_once, kept_way)

@@ -17,12 +17,13 @@ TAKEN_OUT = frozenset({"clear", "remove", "pop", "popleft"})
 
 def forgets(tree: ast.AST) -> Iterator[Suspect]:
     """Find an array or a dictionary that a callback makes anew each time as `__init__` did."""
+    own = {node.name for node in walk(tree) if isinstance(node, ast.ClassDef)}
     begun = {
         ast.unparse(target): ast.unparse(value)
         for one in functions(tree)
         if one.name == "__init__"
         for target, value in assigned(one)
-        if ast.unparse(target).startswith("self.") and _holds_much(value)
+        if ast.unparse(target).startswith("self.") and (_holds_much(value) or _is_of(value, own))
     }
     parts = {
         ast.unparse(node.value)
@@ -43,7 +44,11 @@ def forgets(tree: ast.AST) -> Iterator[Suspect]:
                     value=ast.Constant() | ast.UnaryOp(),
                 ):
                     name = ast.unparse(whole)
-            used = name in parts or f"{name} = " in ast.unparse(function).replace(ast.unparse(statement), "")
+            used = (
+                name in parts
+                or begun.get(name, "").partition("(")[0] in own
+                or f"{name} = " in ast.unparse(function).replace(ast.unparse(statement), "")
+            )
             if name in begun and used:
                 yield (
                     statement.lineno,
@@ -115,6 +120,11 @@ def _holds_much(value: ast.expr) -> bool:
         return ast.unparse(value.func).startswith(("np.", "numpy.")) or ast.unparse(value) in ("dict()", "set()")
     long = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult) and isinstance(value.left, ast.List)
     return long or isinstance(value, ast.Dict | ast.ListComp)
+
+
+def _is_of(value: ast.expr, classes: set[str]) -> bool:
+    """Return whether a value is made by a class of the file with arguments, as a map is with its size."""
+    return isinstance(value, ast.Call) and ast.unparse(value.func) in classes and bool(value.args or value.keywords)
 
 
 def _of_zeros(value: ast.expr, name: str) -> bool:

@@ -10,6 +10,7 @@ from gz_course.grader.lint.constants import Number, named_numbers, number
 from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 CELL = 0.1  # [m]
+NOTHING = ("0", "FREE", "self.FREE")
 NARROW, WIDE = 2, 5  # [cells] at most, at least
 
 
@@ -34,6 +35,25 @@ def margins(tree: ast.Module) -> Iterator[Suspect]:
             )
 
 
+def widened_unknown(tree: ast.AST) -> Iterator[Suspect]:
+    """Find walls that are widened together with what is unknown, which closes every way to a frontier."""
+    if "OccupancyGrid" not in ast.unparse(tree):
+        return
+    for function in functions(tree):
+        for node in (each for each in walk(function) if isinstance(each, ast.If)):
+            reaches = [_reach(each.iter) for each in walk(node) if isinstance(each, ast.For)]
+            if len([each for each in reaches if each]) < 2 or len(node.body) != 1:
+                continue
+            match node.test:
+                case ast.Compare(ops=[ast.NotEq()], comparators=[free]) if ast.unparse(free) in NOTHING:
+                    yield (
+                        node.lineno,
+                        "wide",
+                        f"`{ast.unparse(node.test)[:60]}` is true for unknown cells, too, and they are widened like "
+                        "walls, so no free cell beside an unknown one can be reached: widen the occupied cells only",
+                    )
+
+
 def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
     """Yield the line, the code and the number of cells of each loop over a square around a cell."""
     known = named_numbers(tree)
@@ -49,7 +69,8 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
                 continue
             line = next(line for line, each in reaches if each == name)
             if name not in names:
-                value = number(ast.parse(name, mode="eval").body, known) or _by_cells(function, name, known)
+                value = number(ast.parse(name, mode="eval").body, known)
+                value = _by_cells(function, name, known) if value is None else value
                 if value is not None:
                     yield _made_at(function, name) or line, name, value
                 continue
@@ -95,4 +116,4 @@ def _of_walls(call: ast.Call) -> bool:
     return "unknown" not in first and "-1" not in first and "free" not in first and last_name(call.func) != "roll"
 
 
-LOOKS = (margins,)
+LOOKS = (margins, widened_unknown)

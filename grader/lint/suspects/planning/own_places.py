@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, calls, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions, last_name, walk
 
 CORNER_X = re.compile(
     r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
@@ -16,6 +16,8 @@ CORNER_Y = re.compile(
 )
 ROW, COLUMN = re.compile(r"\b(?:rows?|r)\b"), re.compile(r"\b(?:columns?|cols?|c)\b")
 X, Y = re.compile(r"(?:^|[._])[a-z]?x$"), re.compile(r"(?:^|[._])[a-z]?y$")
+ROWS = re.compile(r"(?:^|[._])(?:row|r|cy|gy|iy|my|y|j)$")
+HEIGHTS = re.compile(r"(?:^|[._])(?:height|h|rows|n_?rows|grid_height|map_height)$", re.IGNORECASE)
 PAIRS = ((X, Y), (re.compile(r"^(?:row|r|cy|j)$"), re.compile(r"^(?:col|column|c|cx|i)$")))
 
 
@@ -118,4 +120,42 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)
+def corner_added(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `(x + origin_x) / resolution` where origin_x is sent as the origin of the map: it must be subtracted."""
+    sent = {
+        last_name(value)
+        for target, value in assigned(tree)
+        if re.search(r"origin\.position\.[xy]$", ast.unparse(target))
+    } - {""}
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(left=ast.BinOp(left=one, op=ast.Add(), right=other), op=ast.Div() | ast.FloorDiv()):
+                for point, corner in ((one, other), (other, one)):
+                    if last_name(corner) in sent and last_name(point) not in sent:
+                        yield (
+                            node.lineno,
+                            "cell",
+                            f"{ast.unparse(node)[:60]} adds the corner of the map, {ast.unparse(corner)}: a cell is "
+                            "counted from the corner, so subtract it",
+                        )
+
+
+def other_stride(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `row * height + column`, by which cells of different rows share a place."""
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(
+                left=ast.BinOp(left=one, op=ast.Mult(), right=other), op=ast.Add(), right=ast.Name() | ast.Attribute()
+            ):
+                names = (ast.unparse(one), ast.unparse(other)), (ast.unparse(other), ast.unparse(one))
+                for row, length in names:
+                    if ROWS.search(row) and HEIGHTS.search(length):
+                        yield (
+                            node.lineno,
+                            "stride",
+                            f"{ast.unparse(node)[:60]} multiplies the row by the number of rows: a row is width cells "
+                            f"long, so the place is {row} * width + column",
+                        )
+
+
+LOOKS = (corner_added, other_stride, unpacked_otherwise, other_order, corner_minus_point, axes_of_cells)

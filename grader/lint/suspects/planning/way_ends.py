@@ -18,6 +18,8 @@ def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
     for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
         for way in {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}:
             makers = [each for each in functions(owner) if each.name != "__init__" and _makes(each, way)]
+            if not makers and any(ast.unparse(one) == way and isinstance(of, ast.Call) for one, of in assigned(owner)):
+                makers = [each for each in functions(tree) if _follows_back(each)]
             turned = any(called(each) & TURNS_ROUND or "[::-1]" in ast.unparse(each) for each in makers)
             changed = any(
                 ast.unparse(call.func) in {f"{way}.{name}" for name in SHORTENS} for call, name in calls(owner)
@@ -29,7 +31,8 @@ def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
                 if isinstance(node, ast.Subscript) and ast.unparse(node.value) == way and isinstance(node.ctx, ast.Load)
             ]
             kinds = {ast.unparse(node.slice) for node in read}
-            if not makers or not turned or changed or cut or len(kinds) != 1:
+            looped = any(ast.unparse(each.iter) == way for each in walk(owner) if isinstance(each, ast.For))
+            if not makers or not turned or changed or cut or len(kinds) != 1 or looped:
                 continue
             if kinds == {"0"}:
                 yield (
@@ -53,9 +56,11 @@ def _is_a_list(target: ast.expr, value: ast.expr) -> bool:
 
 def _makes(function: ast.FunctionDef, way: str) -> bool:
     """Return whether a function collects a way back from its goal: `cell = before[cell]` in a loop."""
-    if not any(ast.unparse(target) == way for target, _ in assigned(function)) or not called(function) & COLLECTS:
-        return False
-    return any(
+    return any(ast.unparse(target) == way for target, _ in assigned(function)) and _follows_back(function)
+
+
+def _follows_back(function: ast.FunctionDef) -> bool:
+    return bool(called(function) & COLLECTS) and any(
         isinstance(value, ast.Subscript) and ast.unparse(value.slice) == ast.unparse(target)
         for loop in walk(function)
         if isinstance(loop, ast.While)
@@ -78,4 +83,20 @@ def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
-LOOKS = (ends_of_a_way, other_end_taken)
+def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop over a way that returns, or breaks, in its first pass whatever the cell is."""
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        ways = {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}
+        for loop in (node for node in walk(owner) if isinstance(node, ast.For)):
+            early = any(isinstance(each, ast.Continue) for each in walk(loop))
+            if ast.unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
+                yield (
+                    loop.lineno,
+                    "way",
+                    f"the loop over {ast.unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
+                    "it always takes the first cell of the way, in which the robot stands: a condition must say which "
+                    "cell is far enough",
+                )
+
+
+LOOKS = (ends_of_a_way, other_end_taken, left_in_the_first_pass)

@@ -45,7 +45,7 @@ def _set(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
 def backwards(tree: ast.AST) -> Iterator[Suspect]:
     """Find a way that is followed back from its goal to the start, and not turned round."""
     for function in functions(tree):
-        if called(function) & TURNS_ROUND or "[::-1]" in ast.unparse(function) or "[-1]" in ast.unparse(tree):
+        if called(function) & TURNS_ROUND or "[::-1]" in ast.unparse(function) or _from_the_end(tree):
             continue
         for loop in (node for node in walk(function) if isinstance(node, ast.While)):
             steps = {
@@ -64,6 +64,21 @@ def backwards(tree: ast.AST) -> Iterator[Suspect]:
                             f"{ast.unparse(call)} collects the way from the goal back to the start, and nothing turns "
                             f"it round: its first cells are those at the goal; {way}.reverse() makes it begin here",
                         )
+
+
+def _from_the_end(tree: ast.AST) -> bool:
+    """Return whether a function takes the last cell of a way, and does not go through it from its first one."""
+    for function in functions(tree):
+        ends = {
+            ast.unparse(each.value)
+            for each in walk(function)
+            if ast.unparse(each).endswith("[-1]")
+            if isinstance(each, ast.Subscript)
+        }
+        loops = {ast.unparse(each.iter) for each in walk(function) if isinstance(each, ast.For)}
+        if ends - loops:
+            return True
+    return False
 
 
 def never_shortened(tree: ast.AST) -> Iterator[Suspect]:

@@ -7,11 +7,21 @@ from collections.abc import Iterator
 
 from gz_course.grader.lint.syntax import Suspect, assigned, last_name, walk
 
+COPIES = frozenset({"list", "tuple", "array", "asarray"})
+
 
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a ray, or a slice of rays, that is chosen by a number in the program."""
+    names = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if isinstance(target, ast.Name) and ast.unparse(_copied(value)).endswith(".ranges")
+    }
     for node in walk(tree):
-        if not isinstance(node, ast.Subscript) or not ast.unparse(node.value).endswith("ranges"):
+        if not isinstance(node, ast.Subscript):
+            continue
+        whole = ast.unparse(node.value)
+        if not whole.endswith("ranges") and whole not in names:
             continue
         if _numbered(node.slice):
             yield (
@@ -20,6 +30,12 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
                 f"{ast.unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
                 "[rad], and 0 is ahead only if angle_min is 0",
             )
+
+
+def _copied(value: ast.expr) -> ast.expr:
+    """Return what `list(...)` or `np.array(...)` copies, or the value itself."""
+    copies = isinstance(value, ast.Call) and last_name(value.func) in COPIES and len(value.args) > 0
+    return value.args[0] if copies and isinstance(value, ast.Call) else value
 
 
 def _numbered(index: ast.expr) -> bool:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import Number, named_numbers, number
-from gz_course.grader.lint.syntax import Suspect, assigned, called, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
 MOST = 3.2  # [rad] a larger limit of an angle was meant in degrees
@@ -24,11 +24,25 @@ Y = re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b|\b(?:leftward|left|aside|sid
 
 def _quaternions(tree: ast.AST) -> set[str]:
     """Return the names that stand for a quaternion: those that are assigned something.orientation."""
-    return {
+    found = {
         ast.unparse(target)
         for target, value in assigned(tree)
         if isinstance(value, ast.Attribute) and value.attr in ("orientation", "rotation")
     }
+    own = {each.name: [one.arg for one in each.args.args if one.arg != "self"] for each in functions(tree)}
+    for call, name in calls(tree):
+        given = zip(own.get(name, []), call.args, strict=False)
+        found |= {one for one, value in given if ast.unparse(value).endswith((".orientation", ".rotation"))}
+    return found
+
+
+def _headings(tree: ast.AST) -> Iterator[ast.expr]:
+    """Yield what is assigned to a heading, and what a function with such a name returns."""
+    yield from (value for target, value in assigned(tree) if HEADING.search(ast.unparse(target)))
+    for function in functions(tree):
+        if HEADING.search(function.name):
+            found = (each.value for each in walk(function) if isinstance(each, ast.Return))
+            yield from (value for value in found if value is not None)
 
 
 def _part(node: ast.AST, names: set[str]) -> str:
@@ -42,9 +56,9 @@ def _part(node: ast.AST, names: set[str]) -> str:
 def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
     """Find headings that are made of a quaternion in a wrong way."""
     names = _quaternions(tree)
-    for target, value in assigned(tree):
+    for value in _headings(tree):
         parts = {part for node in walk(value) if (part := _part(node, names))}
-        if not parts or not HEADING.search(ast.unparse(target)):
+        if not parts:
             continue
         words = _wrong_heading(value, parts, names)
         if words and not (words.startswith("acos") and _signed(tree, names)):
@@ -84,6 +98,12 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
 def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
     in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    of_scans = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if OF_SCANS.search(ast.unparse(value)) and not called(value) & (TO_DEGREES | TO_RADIANS | {"int", "round"})
+    }
+    of_scans -= in_degrees
     for node in walk(tree):
         if not isinstance(node, ast.Call):
             continue
@@ -93,7 +113,8 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
             parts = {ast.unparse(each) for each in walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
                 yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
-        if name in TO_RADIANS and given and OF_SCANS.search(ast.unparse(given[0])):
+        of_scan = given and (OF_SCANS.search(ast.unparse(given[0])) or ast.unparse(given[0]) in of_scans)
+        if name in TO_RADIANS and of_scan and not _in_degrees(given[0]):
             yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"
 
 

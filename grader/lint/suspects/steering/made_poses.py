@@ -18,7 +18,9 @@ def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
     if "Odometry" not in ast.unparse(tree):
         return
     for function in functions(tree):
+        twists = {ast.unparse(one) for one, value in assigned(function) if ast.unparse(value).endswith(".twist.twist")}
         rates = {ast.unparse(one) for one, value in assigned(function) if RATE.search(ast.unparse(value))}
+        rates |= {f"{name}.angular.z" for name in twists}
         for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
             parts = {ast.unparse(each) for each in walk(node.value)}
             if isinstance(node.op, ast.Add) and (RATE.search(ast.unparse(node.value)) or parts & rates):
@@ -85,4 +87,24 @@ def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (summed_rates, averaged_poses, cut_at_pi)
+def heading_of_a_position(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `atan2(p.y, p.x)` of a position of /odom: the direction from the origin to the robot."""
+    positions = {
+        ast.unparse(one) for one, value in assigned(tree) if ast.unparse(value).endswith(".pose.pose.position")
+    }
+    for node in walk(tree):
+        match node:
+            case ast.Call(args=[ast.Attribute(value=one, attr="y"), ast.Attribute(value=other, attr="x")]):
+                whole = ast.unparse(one)
+                if whole != ast.unparse(other) or not re.search(r"atan2$|arctan2$", ast.unparse(node.func)):
+                    continue
+                if whole in positions or whole.endswith(".pose.pose.position"):
+                    yield (
+                        node.lineno,
+                        "heading",
+                        f"{ast.unparse(node)[:60]} is the direction from the origin to the robot, not where the robot "
+                        "looks: the heading is 2 * atan2(orientation.z, orientation.w)",
+                    )
+
+
+LOOKS = (heading_of_a_position, summed_rates, averaged_poses, cut_at_pi)

@@ -51,3 +51,30 @@ def test_what_may_be_shared():
     assert said(RIGHT.replace("self.pose = message", "Robot.count = 1\n        self.pose = message")) == []
     once = RIGHT.replace("self.front = Robot()", "self.front = Other()").replace("self.pose = m", "Robot.pose = m")
     assert not any("share" in each for each in said(once))
+
+
+KEPT = """
+class Planner:
+    def __init__(self, grid):
+        self.grid = grid
+class Mapper:
+    def __init__(self):
+        self.grid = Grid(100, 80)
+        self.planner = Planner(self.grid)
+        {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "number"),
+    [("self.grid = Grid(100, 80)", 1), ("self.grid = Grid(); self.planner = Planner(self.grid)", 0), ("pass", 0)],
+)
+def test_what_is_replaced_after_it_was_handed_over(line, number):
+    said = [each["said"] for each in slips(KEPT.format(line).encode())]
+    assert sum("keeps that" in each for each in said) == number
+
+
+def test_a_second_map_that_is_handed_over():
+    text = KEPT.format("pass").replace("Planner(self.grid)", "Planner(Grid(100, 80))")
+    said = [each["said"] for each in slips(text.encode())]
+    assert any("is a second one here, beside self.grid" in each for each in said)

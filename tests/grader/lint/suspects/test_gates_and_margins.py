@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.lint.suspects.planning import closed_gates, forgetting, margins, own_places, way_ends
+from gz_course.grader.lint.suspects.planning import closed_gates, forgetting, made_cells, margins, own_places, way_ends
 from gz_course.grader.lint.suspects.steering import made_poses, standstills
 
 
@@ -173,3 +173,117 @@ def test_parts_that_are_unpacked_in_another_order():
     ((line, said),) = found(own_places, text)
     assert line == 2 and "x, y, ..." in said
     assert found(own_places, text.replace("x, yaw, y", "x, y, yaw")) == []
+
+
+@pytest.mark.parametrize(
+    ("code", "number"),
+    [
+        ("row * self.height + col", 1),
+        ("HEIGHT * iy + ix", 1),
+        ("row * self.width + col", 0),
+        ("col * self.height + row", 0),
+        ("row * height + 5", 0),
+    ],
+)
+def test_a_row_is_as_long_as_the_map_is_wide(code, number):
+    assert len(list(own_places.other_stride(ast.parse(f"place = {code}")))) == number
+
+
+def test_a_margin_of_no_cell():
+    text = """
+kind = OccupancyGrid
+class Planner:
+    REACH = 0
+    def widened(self, walls):
+        for dy in range(-self.REACH, self.REACH + 1):
+            for dx in range(-self.REACH, self.REACH + 1):
+                walls[dy, dx] = 1
+"""
+    ((_, said),) = found(margins, text)
+    assert "self.REACH is 0, so ways keep 0 cells" in said
+
+
+CELLS = """
+def place(self):
+    grid = np.zeros((HEIGHT, WIDTH))
+    i, j = int((self.px - X0) / RES), int((self.py - Y0) / RES)
+    {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("x = X0 + (j + 0.5) * RES", "makes x of a number of cells that was made of y"),
+        ("x, y = X0 + (i + 0.5) * RES, Y0 + (j + 0.5) * RES", ""),
+        ("value = grid[i, j]", "the index is [row, column]"),
+        ("value = grid[j, i]", ""),
+    ],
+)
+def test_cells_that_are_made_of_the_other_coordinate(line, words):
+    said = [each for _, each in found(made_cells, CELLS.format(line))]
+    assert words in said[0] if words else said == []
+
+
+WAY = """
+class Mapper:
+    def __init__(self):
+        self.way = []
+    def plan(self):
+        if self.way:
+            return
+        self.way = self.search()
+    def aim(self):
+        for cell in self.way:
+            {}
+        return self.way[-1]
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "more", "number"),
+    [("return cell", "", 1), ("if far(cell): return cell", "", 0), ("continue", "", 0)],
+)
+def test_a_loop_over_a_way_that_returns_in_its_first_pass(line, more, number):
+    assert len(list(way_ends.left_in_the_first_pass(ast.parse(WAY.format(line) + more)))) == number
+
+
+@pytest.mark.parametrize(("more", "number"), [("", 1), ("    def go(self):\n        self.way.pop(0)\n", 0)])
+def test_a_way_that_nothing_takes_away_again(more, number):
+    assert len(list(closed_gates.kept_way(ast.parse(WAY.format("pass") + more)))) == number
+
+
+def test_rates_of_a_twist_with_a_name_are_added_up():
+    text = "def on_odom(m):  # Odometry\n    t = m.twist.twist\n    pose.yaw += t.angular.z * 0.02\nkind = Odometry\n"
+    assert len(list(made_poses.summed_rates(ast.parse(text)))) == 1
+    assert not list(made_poses.summed_rates(ast.parse(text.replace("twist.twist", "pose.pose"))))
+
+
+@pytest.mark.parametrize(("number", "words"), [("1", "keep 1 cell"), ("3", "")])
+def test_a_margin_whose_parts_are_assigned_together(number, words):
+    text = f"""
+kind = OccupancyGrid
+WIDTH, REACH = 100, {number}
+for dy in range(-REACH, REACH + 1):
+    for dx in range(-REACH, REACH + 1):
+        walls[dy, dx] = 1
+"""
+    said = [
+        each
+        for _, each in found(margins, f"def widened(walls):\n    {text.strip().replace(chr(10), chr(10) + '    ')}")
+    ]
+    assert words in said[0] if words else said == []
+
+
+@pytest.mark.parametrize(("sign", "number"), [("+", 1), ("-", 0)])
+def test_the_corner_is_subtracted(sign, number):
+    text = f"info.origin.position.x = self.grid.left\ncolumn = int((x {sign} self.left) / self.size)\n"
+    assert len(list(own_places.corner_added(ast.parse(text)))) == number
+
+
+@pytest.mark.parametrize(
+    ("value", "number"), [("atan2(p.y, p.x)", 1), ("atan2(goal.y, goal.x)", 0), ("atan2(q.z, q.w)", 0)]
+)
+def test_the_direction_of_a_position_is_no_heading(value, number):
+    text = f"p = message.pose.pose.position\nyaw = math.{value}\n"
+    assert len(list(made_poses.heading_of_a_position(ast.parse(text)))) == number

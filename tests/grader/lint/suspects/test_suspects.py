@@ -121,3 +121,17 @@ def test_a_sign_that_is_asked_for_tells_left_from_right():
 
 def test_what_is_no_python_has_none():
     assert suspects(b"def (:") == []
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("math.atan2(q.z, q.w)", "that is half of it"),
+        ("q.z", "the sine of half of it"),
+        ("2 * math.atan2(q.z, q.w)", ""),
+    ],
+)
+def test_a_function_that_returns_a_heading(value, words):
+    text = f"def yaw_of(q):\n    return {value}\ndef on_odom(m):\n    heading = yaw_of(m.pose.pose.orientation)\n"
+    said = [each["said"] for each in suspects(text.encode())]
+    assert words in said[0] if words else said == []

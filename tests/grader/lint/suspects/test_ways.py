@@ -147,3 +147,23 @@ def test_the_side_to_which_a_robot_turns(side, number):
     assert [each["about"] for each in suspects(text.encode())] == ["sign"] * number
     text = RIGHT.replace("error))", "error))\n        if error > 0.5:\n            command.angular.z = -1.0")
     assert "on the left, and angular.z becomes -1.0" in suspects(text.encode())[0]["said"]
+
+
+BACK = """
+class Planner:
+    def trace(self, before, cell):
+        path = []
+        while cell is not None:
+            path.append(cell)
+            cell = before[cell]
+        return path
+class Driver:
+    def aim(self):
+        {}
+        return self.path[-1]
+"""
+
+
+@pytest.mark.parametrize(("first", "said"), [("for cell in self.path: self.look(cell)", True), ("pass", False)])
+def test_a_way_from_the_goal_that_is_followed_from_its_first_cell(first, said):
+    assert any("nothing turns it round" in each["said"] for each in suspects(BACK.format(first).encode())) == said

@@ -66,3 +66,24 @@ def test_a_counter_that_lets_few_messages_through_is_named_if_they_come_so(recor
     signals = every(2.0) | {"topics/scan/range_min": [(round(i * scans, 6), 0.1) for i in range(int(8 / scans))]}
     finding = found("rate", record(signals, facts={"suspects": [said]}), topic="cmd_vel", hertz=[0.95])
     assert words in finding.explanation if words else finding.explanation == ""
+
+
+PLACES = [
+    {"line": 5, "topic": "/cmd_vel", "said": "send() is called only while `self.idle` holds"},
+    {"line": 3, "topic": "/cmd_vel", "said": "create_timer(2.0, self.send) publishes once in 2 s", "period": 2.0},
+]
+
+
+@pytest.mark.parametrize(
+    ("times", "words"),
+    [
+        ([0.5 * i for i in range(16)], ""),
+        ([2.0 * i for i in range(4)], "line 3: create_timer(2.0, self.send) publishes once in 2 s"),
+        ([0.0, 0.2, 0.4, 0.6, 4.0, 4.2, 4.4, 7.8], "line 5: send() is called only while `self.idle` holds, so no"),
+        ([1.5 * i for i in range(5)], ""),
+    ],
+)
+def test_what_makes_messages_rare_is_named_if_they_come_in_that_rhythm(record, found, times, words):
+    recording = record({COUNT: [(time, 1.0) for time in times]}, facts={"rhythm": PLACES})
+    finding = found("rate", recording, topic="cmd_vel", hertz=[0.95], longest_gap=1.2)
+    assert finding.explanation.startswith(words) and bool(finding.explanation) == bool(words)

@@ -1,0 +1,36 @@
+"""A robot that goes on by its last command."""
+
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from gz_course.grader.record.reading import Signal
+
+FOLDER = Path(__file__).parents[2] / "exercises/13_capstone"
+LAST = SimpleNamespace(**runpy.run_path(str(FOLDER / "last_commands.py")))
+
+
+def recording(times, ahead):
+    at = np.round(np.asarray(times) * 1e9).astype(np.int64)
+    values = {"topics/cmd_vel/linear/x": np.asarray(ahead), "topics/cmd_vel/angular/z": 0.0 * np.asarray(ahead)}
+    return SimpleNamespace(signal=lambda name: Signal(at, values[name]), end_ns=36_000_000_000)
+
+
+@pytest.mark.parametrize(
+    ("until", "speed", "touched", "words"),
+    [
+        (10.0, 0.4, 14.0, "no command came for 4.1 s after that of 9.9 s, with linear.x 0.40"),
+        (10.0, 0.4, 10.3, ""),
+        (10.0, 0.0, 14.0, ""),
+        (10.0, 0.4, None, "no command came for 26.1 s after that of 9.9 s"),
+        (33.0, 0.4, None, ""),
+        (10.0, 0.0, None, ""),
+    ],
+)
+def test_a_robot_that_goes_on_by_its_last_command(until, speed, touched, words):
+    times = np.arange(0.0, until, 0.1)
+    said = LAST.kept(recording(times, np.full(len(times), speed)), touched)
+    assert words in said if words else said == ""
