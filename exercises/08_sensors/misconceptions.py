@@ -269,6 +269,9 @@ def turned_otherwise(recording, when):
     words = "that is the number of places if the points are "
     yield words + "not turned by the heading at which they were seen", CHECKS.found_if(recording, when, 0.0)
     back = CHECKS.found_if(recording, when, -1.0)
+    if exchanged := suspect(recording, "axes"):  # makes as many: directions are mirrored instead of headings
+        yield exchanged, back
+        return
     yield words + "turned the wrong way: check the signs of sin(heading)", back
 
 

@@ -1,5 +1,7 @@
 """Why the two ends of the distance have different names; `checks.py` hands over the ends and the remappings."""
 
+from gz_course.sim.did_you_mean import nearest_name
+
 
 def of_a_remapping(rules, ends, sends, takes):
     """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
@@ -24,6 +26,13 @@ def of_a_remapping(rules, ends, sends, takes):
                     f"{new}; the other node uses {other}"
                 )
     return ""
+
+
+def of_a_spelling(sends, takes):
+    """Return that two topics are the same but for a letter or two; empty if they differ in a whole part."""
+    if sends.count("/") != takes.count("/") or not nearest_name(sends, [takes], cutoff=0.85):
+        return ""
+    return f"{sends} and {takes} are spelled differently: both ends need the very same name"
 
 
 def of_a_node(ends, topics):

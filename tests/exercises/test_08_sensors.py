@@ -312,3 +312,12 @@ def test_points_where_no_post_stands_are_put_down_to_walls_only_if_they_lie_ther
 def _given(hall):
     points, stamps, _ = CHECKS["said_points"](hall)
     return points, stamps, np.zeros(len(points), bool)
+
+
+@pytest.mark.parametrize(("about", "words"), [("axes", "line 9: atan2(ahead, left)"), ("", "check the signs of sin")])
+def test_directions_that_are_exchanged_make_as_many_places_as_headings_of_the_other_sign(about, words):
+    hall = Hall()
+    hall.suspects = [{"line": 9, "about": about, "said": "atan2(ahead, left)"}] if about else []
+    when = 9_000_000_000
+    hall.signals["topics/red_count/data"] = ([9.0], [CHECKS["found_if"](hall, when, -1.0)])
+    assert words in hall.found("counts_the_posts").explanation

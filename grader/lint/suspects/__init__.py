@@ -44,6 +44,7 @@ from gz_course.grader.lint.suspects.sensing import (
     bearings,
     bias_use,
     bias_while_turning,
+    exchanged_axes,
     farthest,
     gyroscopes,
     known_places,
@@ -120,6 +121,7 @@ LOOKS = (
     *own_places.LOOKS,
     *made_poses.LOOKS,
     *standstills.LOOKS,
+    *exchanged_axes.LOOKS,
 )
 MOST = 20  # suspects kept
 
