@@ -233,7 +233,9 @@ def other_count(recording, number, when):
     names = CHECKS.posts(recording)[1]
     red = sum(name.startswith("red") for name in names)
     if number == 0:
-        return "no post was remembered: self.posts is empty when the turn is over" if len(points) else ""
+        said = "no post was remembered: self.posts is empty when the turn is over"
+        why = suspect(recording, "same")  # such as a new post that must be far from a known one, when none is known
+        return (f"{why} ({said})" if why else said) if len(points) else ""
     if said := suspect(recording, "same", "unturned"):
         return said
     if number == len(names) and not CHECKS.places_the_posts(recording, {}).passed:

@@ -96,6 +96,8 @@ def test_a_right_run_passes():
     ("hall", "words"),
     [
         (Hall(lambda a, b: (a, b / a)), "it lacks the factor ahead"),
+        (Hall(lambda a, b: (a, b / a**2)), "it is divided by ahead, and must be multiplied by it"),
+        (Hall(lambda a, b: (a, b * a)), "it has the factor ahead twice"),
         (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from about column 138"),
         (Hall(lambda a, b: (a, b - 0.171 * a)), "is counted from column 60, half of the height"),
         (Hall(lambda a, b: (1.0, b / a)), "every distance is 1.00 m"),
@@ -321,3 +323,10 @@ def test_directions_that_are_exchanged_make_as_many_places_as_headings_of_the_ot
     when = 9_000_000_000
     hall.signals["topics/red_count/data"] = ([9.0], [CHECKS["found_if"](hall, when, -1.0)])
     assert words in hall.found("counts_the_posts").explanation
+
+
+def test_a_list_that_stays_empty_by_its_own_rule():
+    hall = Hall(count=0)
+    assert "self.posts is empty" in hall.found("counts_the_posts").explanation
+    hall.suspects = [{"line": 9, "about": "same", "said": "any(...) holds as soon as one known post is far away"}]
+    assert hall.found("counts_the_posts").explanation.startswith("line 9: any(...)")

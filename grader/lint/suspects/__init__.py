@@ -53,6 +53,7 @@ from gz_course.grader.lint.suspects.sensing import (
     ray_parts,
     rays,
     same_places,
+    turned_angles,
 )
 from gz_course.grader.lint.suspects.steering import (
     drives,
@@ -122,6 +123,7 @@ LOOKS = (
     *made_poses.LOOKS,
     *standstills.LOOKS,
     *exchanged_axes.LOOKS,
+    *turned_angles.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -28,8 +28,8 @@ def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     call.lineno,
                     "axes",
-                    f"{ast.unparse(call)[:60]}: {name} takes y first: the direction of what is {ahead} ahead and "
-                    f"{left} to the left is {right}",
+                    f"{ast.unparse(call)[:60]}: {name} takes y first, what is to the left, and that is {left} here: "
+                    f"{right}",
                 )
 
 

@@ -20,7 +20,12 @@ class A:
 @pytest.mark.parametrize(
     ("given", "parameters", "code", "words"),
     [
-        ("ahead, left", "ahead, left", "a = atan2(ahead, left)", "the direction of what is ahead ahead and left"),
+        (
+            "ahead, left",
+            "ahead, left",
+            "a = atan2(ahead, left)",
+            "takes y first, what is to the left, and that is left here: atan2(left, ahead)",
+        ),
         ("ahead + 0.12, left", "forward, side", "a = math.atan2(forward, side)", "atan2(side, forward)"),
         ("ahead, left", "depth, off", "f = depth + 0.12; a = np.arctan2(f, off)", "arctan2(off, f)"),
         ("ahead, left", "ahead, left", "a = atan2(left, ahead + 0.12)", ""),
