@@ -238,6 +238,8 @@ def other_count(recording, number, when):
         return (f"{why} ({said})" if why else said) if len(points) else ""
     if said := suspect(recording, "same", "unturned"):
         return said
+    if (said := suspect(recording, "axes")) and number == CHECKS.found_if(recording, when, -1.0):
+        return said  # mirrored directions make as many places as headings of the other sign
     if number == len(names) and not CHECKS.places_the_posts(recording, {}).passed:
         return "that is the number of all posts, of every colour"
     kinds = {kind: sum(name.startswith(kind) for name in names) for kind in ("blue", "orange", "green")}
@@ -271,9 +273,6 @@ def turned_otherwise(recording, when):
     words = "that is the number of places if the points are "
     yield words + "not turned by the heading at which they were seen", CHECKS.found_if(recording, when, 0.0)
     back = CHECKS.found_if(recording, when, -1.0)
-    if exchanged := suspect(recording, "axes"):  # makes as many: directions are mirrored instead of headings
-        yield exchanged, back
-        return
     yield words + "turned the wrong way: check the signs of sin(heading)", back
 
 
@@ -319,12 +318,6 @@ def ways_to_count(here, points, yaw):
         "that is the number if posts at the same distance are one: the direction counts, too",
         _distinct(distances[:, None], CHECKS.SAME_PLACE),
     )
-    for metres in (1.0, 0.5, 0.1):
-        cells = len(np.unique(np.round(here / metres), axis=0))
-        words = (
-            f"that is the number of places rounded to {metres:g} m: a post near the border of two cells counts twice"
-        )
-        yield words, cells
 
 
 def _distinct(places, apart, size=np.linalg.norm):

@@ -17,7 +17,10 @@ def of_a_remapping(rules, ends, sends, takes):
                 means = "" if each["from"] == old else f", which means {old} in the namespace {space or '/'}"
                 return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
             if (old, new) == (other, used):
-                return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
+                return (
+                    f"{place}: a remapping is (name in the node, new name); here, they are exchanged, or it stands at "
+                    f"the wrong node: {each['from']} is the name in the other one"
+                )
             if old == new == used and each["to"].startswith("/"):
                 return f"{place}: this remapping changes nothing, because {each['from']!r} already means {new} here"
             if space and new == used and not each["to"].startswith("/"):

@@ -1,4 +1,4 @@
-"""Suspects in directions whose two arguments are exchanged, whatever they are called: `atan2(ahead, left)` (`axes`).
+"""Suspects in what is made of a place ahead and to the left, whatever both are called: `atan2(ahead, left)` (`axes`).
 
 What is put into the x and the y of a message says which name is which; calls of the file's functions hand it on.
 """
@@ -6,8 +6,10 @@ What is put into the x and the y of a message says which name is which; calls of
 from __future__ import annotations
 
 import ast
+import math
 from collections.abc import Iterator
 
+from gz_course.grader.lint.slips.geometry.rotations import SOME, pairs
 from gz_course.grader.lint.syntax import Suspect, assigned, calls, functions
 
 OFFSETS = ast.Add | ast.Sub
@@ -31,6 +33,26 @@ def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
                     f"{ast.unparse(call)[:60]}: {name} takes y first, what is to the left, and that is {left} here: "
                     f"{right}",
                 )
+
+
+def other_turns(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a pair of sums that turns a place, but not by plus the angle whose cosine and sine it has."""
+    axes = _axes(tree)
+    for function, ((first, row), (second, below)) in pairs(tree):
+        known = axes.get(function.name, {})
+        names = {axis: name for name in row if (axis := known.get(name))}
+        if set(names) != {"x", "y"}:
+            continue
+        ahead, left = names["x"], names["y"]
+        found = {(round(each[ahead], 6), round(each[left], 6)) for each in (row, below)}
+        cosine, sine = round(math.cos(SOME), 6), round(math.sin(SOME), 6)
+        if found != {(cosine, -sine), (sine, cosine)}:
+            yield (
+                first.lineno,
+                "axes",
+                f"{ast.unparse(first)[:50]} and {ast.unparse(second)[:50]} turn the wrong way: for x, it is "
+                f"{ahead} * cos - {left} * sin, and for y {ahead} * sin + {left} * cos",
+            )
 
 
 def _axes(tree: ast.AST) -> dict[str, dict[str, str]]:
@@ -65,4 +87,4 @@ def _bare(node: ast.expr) -> str:
     return node.id if isinstance(node, ast.Name) else ""
 
 
-LOOKS = (exchanged_directions,)
+LOOKS = (exchanged_directions, other_turns)

@@ -119,7 +119,10 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
 
 def _adds(node: ast.stmt, name: str) -> bool:
     """Say whether a statement adds to what an attribute was."""
-    return isinstance(node, ast.AugAssign) or (isinstance(node, ast.Assign) and name in ast.unparse(node.value))
+    again = re.compile(rf"{re.escape(name)}\b")
+    return isinstance(node, ast.AugAssign) or bool(
+        isinstance(node, ast.Assign) and again.search(ast.unparse(node.value))
+    )
 
 
 def replaced(tree: ast.AST) -> Iterator[Suspect]:

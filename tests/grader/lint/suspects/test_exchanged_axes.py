@@ -32,6 +32,15 @@ class A:
         ("ahead, left", "forward, side", "a = atan2(side, forward)", ""),
         ("left, ahead", "first, second", "a = atan2(first, second)", ""),
         ("ahead, left", "ahead, left", "a = atan2(self.x, left)", ""),
+        (
+            "ahead, left",
+            "a, b",
+            "x, y = a * sin(h) - b * cos(h), a * cos(h) + b * sin(h)",
+            "for x, it is a * cos - b * sin",
+        ),
+        ("ahead, left", "a, b", "x, y = a * cos(h) + b * sin(h), b * cos(h) - a * sin(h)", "turn the wrong way"),
+        ("ahead, left", "a, b", "x, y = a * cos(h) - b * sin(h), a * sin(h) + b * cos(h)", ""),
+        ("ahead, left", "a, b", "y, x = b * cos(h) + sin(h) * a, -b * sin(h) + a * cos(h)", ""),
     ],
 )
 def test_exchanged_directions(given, parameters, code, words):

@@ -24,6 +24,11 @@ class A:
 """
 
 
+def test_a_rate_that_is_kept_is_no_sum():
+    node = NODE.format(step="0.1", first="self.turned = 0.0").replace("self.bias\n", "np.mean(self.rates)\n", 1)
+    assert not any("without a time" in each["said"] for each in suspects(node.encode()))
+
+
 @pytest.mark.parametrize(
     ("step", "first", "words"),
     [
