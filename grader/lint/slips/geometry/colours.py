@@ -44,7 +44,8 @@ def _shares(tree: ast.AST) -> set[str]:
     for function, made in calls_of_own(tree):
         for call in made:
             for name, value in zip(parameters(function), call.args, strict=False):
-                given.setdefault(name, []).append(value)
+                if ast.unparse(value) != name:
+                    given.setdefault(name, []).append(value)
     loops = [ast.unparse(node.target) for node in walk(tree) if isinstance(node, ast.For | ast.comprehension)]
     names: set[str] = set()
     for _ in range(STEPS):

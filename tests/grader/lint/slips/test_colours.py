@@ -31,5 +31,6 @@ PICTURE = 'self.bridge.imgmsg_to_cv2(image, "rgb8")'
     ],
 )
 def test_shares_of_255(made, test, found):
-    places = slips(NODE.format(made=made, test=test).encode())
-    assert ["never holds" in each["said"] for each in places] == [True] * found, places
+    for name in ("picture", "colours"):
+        places = slips(NODE.format(made=made, test=test).replace("picture", name).encode())
+        assert ["never holds" in each["said"] for each in places] == [True] * found, places
