@@ -1,4 +1,4 @@
-"""Angles in the wrong unit or form: degrees for sin and cos, x and y of atan2 exchanged, a quaternion for an angle."""
+"""Angles in the wrong unit or form: degrees for sin and cos, x and y of atan2 exchanged, rays counted from the end."""
 
 from __future__ import annotations
 
@@ -88,4 +88,24 @@ def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)
+def rays_from_the_end(tree: ast.AST) -> Iterator[Place]:
+    """Find the bearing `scan.angle_max + i * scan.angle_increment`, which begins where a scan ends."""
+    counters = {
+        ast.unparse(node.target.elts[0] if isinstance(node.target, ast.Tuple) else node.target)
+        for node in walk(tree)
+        if isinstance(node, ast.For | ast.comprehension)
+        and isinstance(node.iter, ast.Call)
+        and (ast.unparse(node.iter.func), len(node.iter.args)) in (("enumerate", 1), ("range", 1))
+    }
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.Add(), left=first, right=ast.BinOp(op=ast.Mult(), left=one, right=other)):
+                texts = {ast.unparse(one), ast.unparse(other)}
+                end = ast.unparse(first).endswith("angle_max")
+                if end and texts & counters and any(each.endswith("angle_increment") for each in texts):
+                    code = ast.unparse(node)
+                    right = code.replace("angle_max", "angle_min")
+                    yield node.lineno, f"{code[:80]} begins where the scan ends: ray 0 looks to angle_min, {right[:80]}"
+
+
+LOOKS = (degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles, rays_from_the_end)

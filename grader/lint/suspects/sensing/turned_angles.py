@@ -18,10 +18,10 @@ def orientations(tree: ast.AST) -> Iterator[Suspect]:
         if name == "create_subscription" and len(call.args) > 2 and last_name(call.args[0]) == "Imu"
     }
     for function in (each for each in functions(tree) if each.name in heard and not any(reads_rates(tree))):
-        line = next((each.lineno for each in walk(function) if getattr(each, "attr", "") == "orientation"), 0)
-        if line:
+        found = [node for node in walk(function) if isinstance(node, ast.Attribute) and node.attr == "orientation"]
+        for node in found[:1]:
             said = "the angle of an orientation jumps from pi to -pi and never comes to 2 pi: add up angular_velocity.z"
-            yield line, "gyroscope", f"{said} * time"
+            yield node.lineno, "gyroscope", f"{said} * time"
 
 
 def set_back(tree: ast.AST) -> Iterator[Suspect]:

@@ -4,6 +4,7 @@ import ast
 
 import pytest
 
+from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.slips.geometry import filtered_rays, map_starts
 
 STEP = "a = i * scan.angle_increment"
@@ -87,3 +88,18 @@ def test_a_start_that_is_subtracted(old, new):
 )
 def test_a_start_with_another_use(text):
     assert list(map_starts.LOOKS[0](ast.parse(text))) == []
+
+
+@pytest.mark.parametrize(
+    ("angle", "found"),
+    [
+        ("scan.angle_max + i * scan.angle_increment", True),
+        ("yaw + scan.angle_max + scan.angle_increment * i", True),
+        ("scan.angle_max - i * scan.angle_increment", False),
+        ("scan.angle_min + i * scan.angle_increment", False),
+        ("scan.angle_max + k * scan.angle_increment", False),
+    ],
+)
+def test_rays_that_are_counted_from_the_end(angle, found):
+    text = f"def on_scan(scan, yaw, k):\n    for i, r in enumerate(scan.ranges):\n        use(r, {angle})\n"
+    assert ["begins where the scan ends" in each["said"] for each in slips(text.encode())] == [True] * found
