@@ -328,14 +328,14 @@ def _why_still(recording):
     said = [match for line in recording.lines("log/student") if (match := WARNING.match(line.text))]
     ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
     if not heard:
-        why = "the ranger published no distance on /wall"
+        why = "the ranger published no distance on /wall" + (f"; it warned: {ranger}" if ranger else "")
         held = [e for e in recording.facts().get("conditions", []) if e["file"] == "ranger_node.py"]
         if held:
             code = ", ".join(f"`{each['code']}` in line {each['line']}" for each in held)
             why += f"; before its publish() stand {code} (ranger_node.py)"
         if places := _suspects(recording, "ranger_node.py", "age", "young_age", "hidden"):
-            why = f"{places}; the ranger published no distance on /wall"
-        return f"{why}; it warned: {ranger}" if ranger else why
+            why = f"{places}; {why.partition('; before')[0]}"
+        return why
     if not commands:
         said = f"the driver got {heard} distances and published no command"
         loops = [each for each in recording.facts().get("slips", []) if "in the callback" in each["said"]]

@@ -78,7 +78,9 @@ def of_a_distance(measured, truth, mount):
     same = np.mean(np.abs(error - usual) < CLOSE / 2) >= SHARE
     worst = int(np.argmax(np.abs(error)))
     if np.ptp(truth) > 1.0 and np.all(measured == np.round(measured)):
-        return f"every distance is a whole number of metres, {measured[worst]:.0f} m where it is {truth[worst]:.2f} m"
+        kind = "" if np.median(np.abs(error)) < 1.0 else ": that is a count, or a place in a list, and no distance"
+        seen = f"{measured[worst]:.0f} m where it is {truth[worst]:.2f} m"
+        return f"every distance is a whole number of metres, {seen}{kind}"
     if same and np.ptp(truth) > 4 * CLOSE and abs(usual) > 2 * CLOSE:
         return f"every distance is {abs(usual):.2f} m too {'small' if usual < 0 else 'large'}, near the wall and far"
     if np.mean(error < -CLOSE) >= SHARE:
@@ -179,7 +181,7 @@ def of_kept_distances(times, distance, speed, wanted):
         return ""
     return (
         f"it drives for {(times[last] - times[first]) / 1e9:.1f} s, and then every command is zero although distances "
-        "go on arriving: the distance that it uses is not renewed, and is soon too old"
+        "go on arriving: the distance that it uses, or its stamp, is not renewed, and is soon too old"
     )
 
 

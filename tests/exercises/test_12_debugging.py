@@ -54,6 +54,7 @@ def test_the_place_of_the_lidar(seen, sign, words):
         (TRUTH * 0.5, "nearer than the wall"),
         (TRUTH * 1.5, "too large"),
         (np.floor(TRUTH), "every distance is a whole number of metres"),
+        (np.round(TRUTH * 7) + 10, "that is a count, or a place in a list"),
         (TRUTH * 0.97, "the distance is too small, 2.91 m where the wall is 3.00 m away"),
         (TRUTH - 1.0, "every distance is 1.00 m too small, near the wall and far"),
         (TRUTH + 0.5, "every distance is 0.50 m too large"),
@@ -300,6 +301,15 @@ def test_a_ranger_that_publishes_nothing():
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: []
     )
     assert "before its publish() stand `if ahead:` in line 9" in CHECKS["_why_still"](recording)
+
+
+def test_what_the_ranger_warned_of_is_said_first():
+    line = SimpleNamespace(text='[python3-5] [WARN] [1.0] [ranger]: no frame for the scan: "lidar" does not exist')
+    place = {"file": "ranger_node.py", "line": 9, "code": "if ahead:", "sends": 12, "topic": "/wall"}
+    recording = SimpleNamespace(
+        facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: [line]
+    )
+    assert "on /wall; it warned: no frame for the scan" in CHECKS["_why_still"](recording)
 
 
 def test_a_world_without_the_folder_of_the_launch_file():
