@@ -190,9 +190,8 @@ def of_an_end(end, last, speed, conditions):
     if end - last < 1e9 or abs(speed) <= STANDS:
         return ""
     code = ", ".join(f"`{each['code']}` in line {each['line']}" for each in conditions)
-    return (
-        f"no command comes after {last / 1e9:.1f} s, and the cart obeys the last one, {speed:.2f} m/s: publish a 0 as "
-        "well" + (f"; before the publish() of driver_node.py stand {code}" if code else "")
+    return f"no command comes after {last / 1e9:.1f} s, and the cart obeys the last one, {speed:.2f} m/s" + (
+        f": publish a 0 as well; before the publish() of driver_node.py stand {code}" if code else ""
     )
 
 

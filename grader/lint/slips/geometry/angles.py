@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Place, walk
+from gz_course.grader.lint.syntax import Place, assigned, functions, walk
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
@@ -108,4 +108,34 @@ def rays_from_the_end(tree: ast.AST) -> Iterator[Place]:
                     yield node.lineno, f"{code[:80]} begins where the scan ends: ray 0 looks to angle_min, {right[:80]}"
 
 
-LOOKS = (degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles, rays_from_the_end)
+def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
+    """Find the x of a ray that is made with its sine, with the y that is made with its cosine."""
+    for function in functions(tree):
+        bearings = {
+            ast.unparse(target)
+            for target, value in assigned(function)
+            if {"angle_min", "angle_increment"} <= {getattr(each, "attr", "") for each in walk(value)}
+        }
+        found: dict[tuple[str, str], ast.expr] = {}
+        for target, value in assigned(function):
+            waves = {
+                name for call, name in _calls(value) if name in ("sin", "cos") and ast.unparse(call.args[0]) in bearings
+            }
+            if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
+                found.setdefault((_axis(target), *waves), value)
+        if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2:
+            yield (
+                found["x", "sin"].lineno,
+                f"x = {ast.unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
+                "ahead, has its cosine, and y, to the left, its sine",
+            )
+
+
+LOOKS = (
+    degrees_for_radians,
+    exchanged_atan2,
+    quotients_for_directions,
+    quaternions_for_angles,
+    rays_from_the_end,
+    exchanged_sines,
+)

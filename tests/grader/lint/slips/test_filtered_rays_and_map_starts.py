@@ -103,3 +103,19 @@ def test_a_start_with_another_use(text):
 def test_rays_that_are_counted_from_the_end(angle, found):
     text = f"def on_scan(scan, yaw, k):\n    for i, r in enumerate(scan.ranges):\n        use(r, {angle})\n"
     assert ["begins where the scan ends" in each["said"] for each in slips(text.encode())] == [True] * found
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "found"),
+    [
+        ("mount.x + r * math.sin(a)", "mount.y + r * math.cos(a)", True),
+        ("r * sin(a)", "r * cos(a)", True),
+        ("mount.x + r * math.cos(a)", "mount.y + r * math.sin(a)", False),
+        ("r * sin(b)", "r * cos(b)", False),
+        ("c * r * cos(a) - s * r * sin(a)", "r * cos(a)", False),
+    ],
+)
+def test_the_sine_of_a_ray_is_not_ahead(x, y, found):
+    text = "def on_scan(scan, mount, b, c, s):\n    for i, r in enumerate(scan.ranges):\n"
+    text += f"        a = scan.angle_min + i * scan.angle_increment\n        x, y = {x}, {y}\n        use(x, y)\n"
+    assert ["x, ahead, has its cosine" in each["said"] for each in slips(text.encode())] == [True] * found
