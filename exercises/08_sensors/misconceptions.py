@@ -85,6 +85,8 @@ def misplaced(recording, points, stamps, right):
         return (
             "point.y is always 0: a post is beside the middle of the picture, -(column - cx) / fx * ahead to the left"
         )
+    if np.ptp(at[2]) > 1.0 and (said := DIRECTIONS.always_the_same(ahead, left)):
+        return said
     seen = np.array([[CHECKS.before_camera(tuple(each[i] for each in at), p) for p in red] for i in range(len(ahead))])
     if said := middle_off(seen, ahead, left):
         return said

@@ -103,6 +103,11 @@ def test_a_right_run_passes():
         (Hall(lambda a, b: (1.0, b / a)), "every distance is 1.00 m"),
         (Hall(lambda a, b: (1.5 * a, 1.5 * b)), "the distances are 1.50 times the right ones"),
         (Hall(lambda a, b: (a, 0.0)), "point.y is always 0"),
+        (
+            Hall(lambda a, b: (a, 0.175 * a)),
+            "in all points, wherever the post is: the column does not count in it, and",
+        ),
+        (Hall(lambda a, b: (a, -0.3 * a)), "point.y is -0.30 times point.x in all points"),
         (Hall(lambda a, b: (b, a)), "x and y are exchanged"),
         (Hall(lambda a, b: (0.0, 0.0)), "every point is at (0, 0)"),
         (Hall(sees=lambda names: [name for name in names if name != "red_3"]), "the farthest, 2.4 m away"),
