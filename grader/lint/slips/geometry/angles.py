@@ -122,7 +122,7 @@ def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
                 name for call, name in _calls(value) if name in ("sin", "cos") and ast.unparse(call.args[0]) in bearings
             }
             if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
-                found.setdefault((_axis(target), *waves), value)
+                found.setdefault((_axis(target), waves.pop()), value)
         if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2:
             yield (
                 found["x", "sin"].lineno,
