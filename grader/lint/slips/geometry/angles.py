@@ -108,6 +108,16 @@ def rays_from_the_end(tree: ast.AST) -> Iterator[Place]:
                     yield node.lineno, f"{code[:80]} begins where the scan ends: ray 0 looks to angle_min, {right[:80]}"
 
 
+def _of_a_frame(tree: ast.AST, value: ast.expr) -> bool:
+    """Return whether a coordinate is that of a frame: made with a transform, or put into the x of a message."""
+    made = {ast.unparse(target) for target, each in assigned(tree) if each is value}
+    return "translation" in ast.unparse(value) or any(
+        isinstance(target, ast.Attribute) and target.attr == "x" and (each is value or ast.unparse(each) in made)
+        for target, each in assigned(tree)
+        if not (isinstance(target, ast.Attribute) and ast.unparse(target.value) == "self")
+    )
+
+
 def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
     """Find the x of a ray that is made with its sine, with the y that is made with its cosine."""
     for function in functions(tree):
@@ -123,7 +133,7 @@ def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
             }
             if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
                 found.setdefault((_axis(target), waves.pop()), value)
-        if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2:
+        if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2 and _of_a_frame(tree, found["x", "sin"]):
             yield (
                 found["x", "sin"].lineno,
                 f"x = {ast.unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "

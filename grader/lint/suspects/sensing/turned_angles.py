@@ -27,21 +27,29 @@ def orientations(tree: ast.AST) -> Iterator[Suspect]:
 def set_back(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle that is set to a number just before something is added to it, in each message."""
     for function in reads_rates(tree):
-        for block in (
-            each for node in walk(function) for each in (getattr(node, "body", []), getattr(node, "orelse", []))
-        ):
+        blocks = [(node, block) for node in walk(function) for block in (_block(node, "body"), _block(node, "orelse"))]
+        for above, block in blocks:
+            once = ast.unparse(above.test) if isinstance(above, ast.If) and block is above.body else ""
             numbers: dict[str, ast.stmt] = {}
-            for statement in block if isinstance(block, list) else ():
+            for statement in block:
                 match statement:
                     case ast.Assign(targets=[ast.Attribute() as target], value=ast.Constant(value=int() | float())):
                         numbers[ast.unparse(target)] = statement
-                    case ast.AugAssign(target=ast.Attribute() as target) if made := numbers.get(ast.unparse(target)):
-                        yield (
-                            made.lineno,
-                            "gyroscope",
-                            f"{ast.unparse(made)} is done before each step is added, so what was turned before is "
-                            "forgotten: set it once",
-                        )
+                    case ast.AugAssign(target=ast.Attribute() as target):
+                        made = numbers.get(ast.unparse(target))
+                        if made is not None and ast.unparse(target) not in once:
+                            yield (
+                                made.lineno,
+                                "gyroscope",
+                                f"{ast.unparse(made)} is done before each step is added, so what was turned before is "
+                                "forgotten: set it once",
+                            )
+
+
+def _block(node: ast.AST, name: str) -> list[ast.stmt]:
+    """Return a block of a statement; empty for what has none, such as an expression."""
+    block = getattr(node, name, None)
+    return block if isinstance(block, list) else []
 
 
 def steps_of_timers(tree: ast.AST) -> Iterator[Suspect]:

@@ -106,16 +106,18 @@ def test_rays_that_are_counted_from_the_end(angle, found):
 
 
 @pytest.mark.parametrize(
-    ("x", "y", "found"),
+    ("code", "found"),
     [
-        ("mount.x + r * math.sin(a)", "mount.y + r * math.cos(a)", True),
-        ("r * sin(a)", "r * cos(a)", True),
-        ("mount.x + r * math.cos(a)", "mount.y + r * math.sin(a)", False),
-        ("r * sin(b)", "r * cos(b)", False),
-        ("c * r * cos(a) - s * r * sin(a)", "r * cos(a)", False),
+        ("x, y = t.translation.x + r * math.sin(a), t.translation.y + r * math.cos(a)", True),
+        ("point.x, point.y = r * sin(a), r * cos(a)", True),
+        ("x, y = r * sin(a), r * cos(a); p.x, p.y = x, y", True),
+        ("x, y = r * sin(a), r * cos(a)", False),
+        ("x, y = t.translation.x + r * math.cos(a), t.translation.y + r * math.sin(a)", False),
+        ("point.x, point.y = r * sin(b), r * cos(b)", False),
+        ("point.x, point.y = c * r * cos(a) - s * r * sin(a), r * cos(a)", False),
     ],
 )
-def test_the_sine_of_a_ray_is_not_ahead(x, y, found):
-    text = "def on_scan(scan, mount, b, c, s):\n    for i, r in enumerate(scan.ranges):\n"
-    text += f"        a = scan.angle_min + i * scan.angle_increment\n        x, y = {x}, {y}\n        use(x, y)\n"
+def test_the_sine_of_a_ray_is_not_ahead(code, found):
+    text = "def on_scan(scan, point, b, c, s, t):\n    for i, r in enumerate(scan.ranges):\n"
+    text += f"        a = scan.angle_min + i * scan.angle_increment\n        {code}\n        use(point)\n"
     assert ["x, ahead, has its cosine" in each["said"] for each in slips(text.encode())] == [True] * found

@@ -36,6 +36,7 @@ def test_a_rate_that_is_kept_is_no_sum():
         ("0.05", "pass", "counts 0.05 s for each call, and the timer calls add every 0.1 s"),
         ("0.1", "self.turned = 0.0", "self.turned = 0.0 is done before each step is added"),
         ("0.1", "self.steps = 0", ""),
+        ("0.1", "if self.turned is None: self.turned = 0.0; self.turned += self.first", ""),
     ],
 )
 def test_sums(step, first, words):
