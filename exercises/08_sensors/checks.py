@@ -238,14 +238,19 @@ def why_beside(at, ahead, left, places, right):
     share = left[known] / true[known]
     if abs(float(np.median(share)) - 1) <= 0.1 and np.mean(np.abs(share - 1) <= 0.15) >= 0.8:
         return ""
-    factors = {"": share, " for each metre ahead": share * ahead[known]}
+    factors = {
+        "": share,
+        "it does not grow with the distance, it lacks the factor ahead": share * ahead[known],
+        "it is divided by ahead, and must be multiplied by it": share * ahead[known] ** 2,
+        "it has the factor ahead twice": share / ahead[known],
+    }
     spread = {words: np.abs(factor / np.median(factor) - 1) for words, factor in factors.items()}
     words = min(spread, key=lambda each: spread[each].mean())
     usual = float(np.median(factors[words]))
     if np.mean(spread[words] <= 0.1) < 0.8 or (not words and abs(usual - 1) <= 0.1):
         return ""
     if words:
-        return "ahead is right, left is not: it does not grow with the distance, it lacks the factor ahead"
+        return f"ahead is right, left is not: {words}"
     return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
 
 

@@ -54,6 +54,19 @@ def other_line(seen, ahead, left):
     return ""
 
 
+def always_the_same(ahead, left):
+    """Return whether all points lie in one direction, wherever the posts are; empty if they do not."""
+    shares = left / np.maximum(ahead, 0.3)
+    low, middle, high = np.percentile(shares, (10, 50, 90)) if len(shares) >= FEWEST else (-1.0, 0.0, 1.0)
+    if high - low > 0.04 or abs(middle) < 0.01:
+        return ""
+    rows = abs(middle - (MIDDLE - 0.375 * WIDTH) / FOCAL_LENGTH) < 0.04
+    return (
+        f"point.y is {middle:.2f} times point.x in all points, wherever the post is: the column does not count in it"
+        + (", and that is what the middle row gives: an array is [row, column]" if rows else "")
+    )
+
+
 def _named(number):
     """Return a number of pixels, and what else is as large."""
     found = [words for known, words in NUMBERS.items() if abs(number - known) <= 0.03 * known]

@@ -85,6 +85,8 @@ def misplaced(recording, points, stamps, right):
         return (
             "point.y is always 0: a post is beside the middle of the picture, -(column - cx) / fx * ahead to the left"
         )
+    if np.ptp(at[2]) > 1.0 and (said := DIRECTIONS.always_the_same(ahead, left)):
+        return said
     seen = np.array([[CHECKS.before_camera(tuple(each[i] for each in at), p) for p in red] for i in range(len(ahead))])
     if said := middle_off(seen, ahead, left):
         return said
@@ -233,9 +235,13 @@ def other_count(recording, number, when):
     names = CHECKS.posts(recording)[1]
     red = sum(name.startswith("red") for name in names)
     if number == 0:
-        return "no post was remembered: self.posts is empty when the turn is over" if len(points) else ""
+        said = "no post was remembered: self.posts is empty when the turn is over"
+        why = suspect(recording, "same")  # such as a new post that must be far from a known one, when none is known
+        return (f"{why} ({said})" if why else said) if len(points) else ""
     if said := suspect(recording, "same", "unturned"):
         return said
+    if (said := suspect(recording, "axes")) and number == CHECKS.found_if(recording, when, -1.0):
+        return said  # mirrored directions make as many places as headings of the other sign
     if number == len(names) and not CHECKS.places_the_posts(recording, {}).passed:
         return "that is the number of all posts, of every colour"
     kinds = {kind: sum(name.startswith(kind) for name in names) for kind in ("blue", "orange", "green")}
@@ -314,12 +320,6 @@ def ways_to_count(here, points, yaw):
         "that is the number if posts at the same distance are one: the direction counts, too",
         _distinct(distances[:, None], CHECKS.SAME_PLACE),
     )
-    for metres in (1.0, 0.5, 0.1):
-        cells = len(np.unique(np.round(here / metres), axis=0))
-        words = (
-            f"that is the number of places rounded to {metres:g} m: a post near the border of two cells counts twice"
-        )
-        yield words, cells
 
 
 def _distinct(places, apart, size=np.linalg.norm):

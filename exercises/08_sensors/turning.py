@@ -60,7 +60,9 @@ def why_turned(recording, when, turned):
         return "the heading reached a full turn at once: a time in nanoseconds is 1e9 times that in seconds"
     for turns, words in ((0.5, "half a turn, pi; a full turn is 2 pi"), (2, "two turns, 4 pi; one is 2 pi")):
         if abs(turned - turns * FULL_TURN) <= CHECKS.TURN_OFF:
-            return f"it was {words}"
+            return suspect(recording, "gyroscope") or (
+                f"it was {words}, or your heading grows {1 / turns:g} times as fast as the robot turns"
+            )
     turning = np.abs(CHECKS.truth(recording, "angular_z", gyro.times[before])) > 0.1
     bias = (
         float((rates - CHECKS.truth(recording, "angular_z", gyro.times[before]))[~turning].mean())

@@ -10,7 +10,7 @@ import numpy as np
 
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launched import complaint, deaths, declared, launch_facts, simulator_fault
+from gz_course.grader.score.launched import complaint, deaths, declared, launch_facts, logged_error, simulator_fault
 
 MISCONCEPTIONS = runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
 NAMES = runpy.run_path(str(Path(__file__).with_name("names.py")))
@@ -68,6 +68,9 @@ def commands_go_to_gazebo(recording, parameters):
                 f"{others[0].place}: /cmd_vel is joined with Gazebo's {others[0].gz_topic}, where the cart does not "
                 "listen: it listens to /model/robot/cmd_vel"
             )
+        elif said := logged_error(recording, "parameter_bridge"):
+            said = re.sub(r"^\S*?([^/\s:]+):(\d+)(?::\d+)?: ", r"\1, line \2: ", said)
+            return Finding(False, expected, measured, explanation=f"parameter_bridge said: {said}")
         return Finding(False, expected, measured)
     if len(found) > 1:
         return Finding(
@@ -140,7 +143,8 @@ def same_topic(recording, parameters):
         measured = f"the distance is published on {min(sends)} and taken from {min(takes)}"
         ends = _ends(recording, "publisher", RANGE) + _ends(recording, "subscription", RANGE)
         rules = recording.facts().get("remappings", [])
-        why = NAMES["of_a_remapping"](rules, ends, min(sends), min(takes)) or NAMES["of_a_node"](ends, sends | takes)
+        why = NAMES["of_a_remapping"](rules, ends, min(sends), min(takes))
+        why = why or NAMES["of_a_spelling"](min(sends), min(takes)) or NAMES["of_a_node"](ends, sends | takes)
         return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"both use {min(sends & takes)}")
 
@@ -168,7 +172,7 @@ def lidar_frame(recording, parameters):
         turn = [recording.signal(f"topics/tf_static/{parent}/{child}/rotation/{axis}").values[-1] for axis in "xyz"]
         seen = [sign * axis[-1] for axis in place]
         if any(abs(each) > 0.01 for each in turn):
-            return Finding(False, expected, "the transform turns the lidar, which looks ahead")
+            return Finding(False, expected, MISCONCEPTIONS["of_a_turned_mount"](turn))
         if math.dist(seen, MOUNT) < 0.005:
             return Finding(True, expected, "so it is")
         measured = f"the transform says x = {seen[0]:.2f}, y = {seen[1]:.2f}, z = {seen[2]:.2f} m"
@@ -324,14 +328,14 @@ def _why_still(recording):
     said = [match for line in recording.lines("log/student") if (match := WARNING.match(line.text))]
     ranger = next((match.group(2) for match in said if match.group(1) == "ranger"), "")
     if not heard:
-        why = "the ranger published no distance on /wall"
+        why = "the ranger published no distance on /wall" + (f"; it warned: {ranger}" if ranger else "")
         held = [e for e in recording.facts().get("conditions", []) if e["file"] == "ranger_node.py"]
         if held:
             code = ", ".join(f"`{each['code']}` in line {each['line']}" for each in held)
             why += f"; before its publish() stand {code} (ranger_node.py)"
         if places := _suspects(recording, "ranger_node.py", "age", "young_age", "hidden"):
-            why = f"{places}; the ranger published no distance on /wall"
-        return f"{why}; it warned: {ranger}" if ranger else why
+            why = f"{places}; {why.partition('; before')[0]}"
+        return why
     if not commands:
         said = f"the driver got {heard} distances and published no command"
         loops = [each for each in recording.facts().get("slips", []) if "in the callback" in each["said"]]
@@ -355,6 +359,9 @@ def _why_there(recording, times, away, wanted):
         return f"{said} (/wall, ranger_node.py)"
     if not len(command):
         return ""
+    held = [each for each in recording.facts().get("conditions", []) if each["file"] == "driver_node.py"]
+    if said := MISCONCEPTIONS["of_an_end"](times[-1], command.times[-1], command.values[-1], held):
+        return said
     before = np.searchsorted(measured.times, command.times, side="left") - 1  # the driver takes it after its timer
     known = before >= 0
     heard, speed = measured.values[before[known]], command.values[known]
@@ -363,7 +370,7 @@ def _why_there(recording, times, away, wanted):
     if "stop_at says" in said and (missing := declared(recording, "stop_at", "1.0")):
         return missing
     kinds = {"is not renewed": ("first_kept",), "stop_at says": ("hidden", "first_kept")}
-    kinds |= {"every command is zero": ("age", "hidden", "young_age"), "however far": ("first_kept",)}
+    kinds |= {"every command is zero": ("age", "hidden", "young_age"), "however far": ("first_kept", "setpoint")}
     kinds |= {"distances are dropped": ("young_age",)}
     about = next((kinds[words] for words in kinds if words in said), ())
     for file in ("driver_node.py", "ranger_node.py")[: 1 + ("young_age" in about)]:

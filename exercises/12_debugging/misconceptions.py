@@ -49,6 +49,14 @@ def of_a_mount(seen, mount, sign):
     return ""
 
 
+def of_a_turned_mount(turn):
+    """Say about which axis a transform turns the lidar, given x, y and z of the quaternion."""
+    largest = max(range(3), key=lambda each: abs(turn[each]))
+    angle = 2 * math.asin(max(-1.0, min(1.0, turn[largest])))
+    axis = ("x (--roll)", "y (--pitch)", "z (--yaw)")[largest]
+    return f"the transform turns the lidar, which looks ahead, by {angle:.2f} rad about {axis}"
+
+
 def of_a_distance(measured, truth, mount):
     """Explain distances to the wall that are wrong, given the true ones and the lidar's x in base_link."""
     for words, wrong in (
@@ -70,7 +78,9 @@ def of_a_distance(measured, truth, mount):
     same = np.mean(np.abs(error - usual) < CLOSE / 2) >= SHARE
     worst = int(np.argmax(np.abs(error)))
     if np.ptp(truth) > 1.0 and np.all(measured == np.round(measured)):
-        return f"every distance is a whole number of metres, {measured[worst]:.0f} m where it is {truth[worst]:.2f} m"
+        kind = "" if np.median(np.abs(error)) < 1.0 else ": that is a count, or a place in a list, and no distance"
+        seen = f"{measured[worst]:.0f} m where it is {truth[worst]:.2f} m"
+        return f"every distance is a whole number of metres, {seen}{kind}"
     if same and np.ptp(truth) > 4 * CLOSE and abs(usual) > 2 * CLOSE:
         return f"every distance is {abs(usual):.2f} m too {'small' if usual < 0 else 'large'}, near the wall and far"
     if np.mean(error < -CLOSE) >= SHARE:
@@ -99,6 +109,8 @@ def of_a_driver(distance, speed, wanted):
         if speed[-1] > 0 and left.min() > FRONT:
             return f"every command is {speed[-1]:.2f} m/s, which is too slow: {left[-1]:.2f} m are left at the end"
         return f"every command is {speed[-1]:.2f} m/s, however far the wall is: it does not fall as the wall comes near"
+    if _adds_up(speed, left):
+        return "each command is the last one and a share of what is left: a speed that adds up comes to 0 too late"
     if abs(wanted + FRONT - DEFAULT) > CLOSE and _drives(speed, left - FRONT):
         return "the distance is taken from the front of the cart, and it is asked for from base_link"
     if (other := _aim(distance, speed)) is not None and abs(other - wanted) > CLOSE:
@@ -140,6 +152,12 @@ def of_a_driver(distance, speed, wanted):
             f"the command is {driven[-1]:.2f} m/s, and nothing from {nearest:.2f} m on: it does not fall as the wall "
             "comes near"
         )
+    turns = np.flatnonzero(np.diff(np.sign(driven)))
+    if len(turns) >= 3 and np.abs(driven[turns[1] :]).max() > 0.3 * FASTEST:
+        return (
+            f"the commands jump between {driven[turns[0] :].min():.2f} and {driven[turns[0] :].max():.2f} m/s near the "
+            f"place, {len(turns)} times ahead and back: the speed is too high for the little that is left"
+        )
     if abs(speed[-1]) > 2 * STANDS and np.all(left[-10:] * speed[-10:] > 0):
         return (
             f"it is still on its way: the last command is {speed[-1]:.2f} m/s with {abs(left[-1]):.2f} m left; it is "
@@ -163,7 +181,17 @@ def of_kept_distances(times, distance, speed, wanted):
         return ""
     return (
         f"it drives for {(times[last] - times[first]) / 1e9:.1f} s, and then every command is zero although distances "
-        "go on arriving: the distance that it uses is not renewed, and is soon too old"
+        "go on arriving: the distance that it uses, or its stamp, is not renewed, and is soon too old"
+    )
+
+
+def of_an_end(end, last, speed, conditions):
+    """Explain commands that end [ns] long before the run does, with a speed [m/s] that the cart keeps."""
+    if end - last < 1e9 or abs(speed) <= STANDS:
+        return ""
+    code = ", ".join(f"`{each['code']}` in line {each['line']}" for each in conditions)
+    return f"no command comes after {last / 1e9:.1f} s, and the cart obeys the last one, {speed:.2f} m/s" + (
+        f": publish a 0 as well; before the publish() of driver_node.py stand {code}" if code else ""
     )
 
 
@@ -175,6 +203,17 @@ def _drives(speed, left):
     commands = np.clip(GAIN * left, -FASTEST, FASTEST)
     free = np.abs(commands) < FASTEST
     return _fits(speed, commands) and _fits(speed[free], commands[free])
+
+
+def _adds_up(speed, left):
+    """Whether each command differs from the one before in proportion to what is left [m]."""
+    steps, inside = np.diff(speed), np.abs(speed) < 0.98 * np.abs(speed).max()
+    free = inside[1:] & inside[:-1] & (np.abs(left[1:]) > CLOSE)
+    if free.sum() < FEWEST:
+        return False
+    shares = steps[free] / left[1:][free]
+    usual = float(np.median(shares))
+    return usual > 1e-3 and bool(np.mean(np.abs(shares - usual) < 0.2 * usual) > 0.7)
 
 
 def _aim(distance, speed):

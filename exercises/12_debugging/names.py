@@ -1,5 +1,7 @@
 """Why the two ends of the distance have different names; `checks.py` hands over the ends and the remappings."""
 
+from gz_course.sim.did_you_mean import nearest_name
+
 
 def of_a_remapping(rules, ends, sends, takes):
     """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
@@ -15,7 +17,10 @@ def of_a_remapping(rules, ends, sends, takes):
                 means = "" if each["from"] == old else f", which means {old} in the namespace {space or '/'}"
                 return f"{place}: the remapping is for the name {each['from']!r}{means}; the node's topic is {used}"
             if (old, new) == (other, used):
-                return f"{place}: a remapping is (name in the node, new name); here, they are exchanged"
+                return (
+                    f"{place}: a remapping is (name in the node, new name); here, they are exchanged, or it stands at "
+                    f"the wrong node: {each['from']} is the name in the other one"
+                )
             if old == new == used and each["to"].startswith("/"):
                 return f"{place}: this remapping changes nothing, because {each['from']!r} already means {new} here"
             if space and new == used and not each["to"].startswith("/"):
@@ -24,6 +29,13 @@ def of_a_remapping(rules, ends, sends, takes):
                     f"{new}; the other node uses {other}"
                 )
     return ""
+
+
+def of_a_spelling(sends, takes):
+    """Return that two topics are the same but for a letter or two; empty if they differ in a whole part."""
+    if sends.count("/") != takes.count("/") or not nearest_name(sends, [takes], cutoff=0.85):
+        return ""
+    return f"{sends} and {takes} are spelled differently: both ends need the very same name"
 
 
 def of_a_node(ends, topics):

@@ -96,11 +96,18 @@ def test_a_right_run_passes():
     ("hall", "words"),
     [
         (Hall(lambda a, b: (a, b / a)), "it lacks the factor ahead"),
+        (Hall(lambda a, b: (a, b / a**2)), "it is divided by ahead, and must be multiplied by it"),
+        (Hall(lambda a, b: (a, b * a)), "it has the factor ahead twice"),
         (Hall(lambda a, b: (a, b + 0.5 * a)), "for each metre ahead: the column is counted from about column 138"),
         (Hall(lambda a, b: (a, b - 0.171 * a)), "is counted from column 60, half of the height"),
         (Hall(lambda a, b: (1.0, b / a)), "every distance is 1.00 m"),
         (Hall(lambda a, b: (1.5 * a, 1.5 * b)), "the distances are 1.50 times the right ones"),
         (Hall(lambda a, b: (a, 0.0)), "point.y is always 0"),
+        (
+            Hall(lambda a, b: (a, 0.175 * a)),
+            "in all points, wherever the post is: the column does not count in it, and",
+        ),
+        (Hall(lambda a, b: (a, -0.3 * a)), "point.y is -0.30 times point.x in all points"),
         (Hall(lambda a, b: (b, a)), "x and y are exchanged"),
         (Hall(lambda a, b: (0.0, 0.0)), "every point is at (0, 0)"),
         (Hall(sees=lambda names: [name for name in names if name != "red_3"]), "the farthest, 2.4 m away"),
@@ -312,3 +319,19 @@ def test_points_where_no_post_stands_are_put_down_to_walls_only_if_they_lie_ther
 def _given(hall):
     points, stamps, _ = CHECKS["said_points"](hall)
     return points, stamps, np.zeros(len(points), bool)
+
+
+@pytest.mark.parametrize(("about", "words"), [("axes", "line 9: atan2(ahead, left)"), ("", "check the signs of sin")])
+def test_directions_that_are_exchanged_make_as_many_places_as_headings_of_the_other_sign(about, words):
+    hall = Hall()
+    hall.suspects = [{"line": 9, "about": about, "said": "atan2(ahead, left)"}] if about else []
+    when = 9_000_000_000
+    hall.signals["topics/red_count/data"] = ([9.0], [CHECKS["found_if"](hall, when, -1.0)])
+    assert words in hall.found("counts_the_posts").explanation
+
+
+def test_a_list_that_stays_empty_by_its_own_rule():
+    hall = Hall(count=0)
+    assert "self.posts is empty" in hall.found("counts_the_posts").explanation
+    hall.suspects = [{"line": 9, "about": "same", "said": "any(...) holds as soon as one known post is far away"}]
+    assert hall.found("counts_the_posts").explanation.startswith("line 9: any(...)")

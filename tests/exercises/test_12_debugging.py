@@ -13,6 +13,8 @@ MOUNT = (-0.2, 0.0, 0.19)
 TRUTH = np.linspace(3.0, 1.0, 40)
 DISTANCE = 1.0 + 2.0 * np.exp(-np.linspace(0.0, 5.0, 60))
 
+SWINGS = 1.0 + 2.0 * np.exp(-np.linspace(0.0, 4.0, 60)) * np.cos(np.linspace(0.0, 20.0, 60))
+
 
 def driven(distance, left, gain=1.5, fastest=0.6):
     return distance, np.clip(gain * left, -fastest, fastest), 1.0
@@ -52,6 +54,7 @@ def test_the_place_of_the_lidar(seen, sign, words):
         (TRUTH * 0.5, "nearer than the wall"),
         (TRUTH * 1.5, "too large"),
         (np.floor(TRUTH), "every distance is a whole number of metres"),
+        (np.round(TRUTH * 7) + 10, "that is a count, or a place in a list"),
         (TRUTH * 0.97, "the distance is too small, 2.91 m where the wall is 3.00 m away"),
         (TRUTH - 1.0, "every distance is 1.00 m too small, near the wall and far"),
         (TRUTH + 0.5, "every distance is 0.50 m too large"),
@@ -87,11 +90,36 @@ def test_the_distance_to_the_wall(measured, words):
         ((DISTANCE + 1.0, np.full(60, 0.1), 1.0), "every command is 0.10 m/s, which is too slow: 1.01 m are left"),
         ((DISTANCE - 0.1, np.where(DISTANCE > 1.1, 0.6, -0.6), 1.0), "every command is 0.60 m/s, ahead or back"),
         ((DISTANCE + 0.2, 0.8 * (DISTANCE - 1.0) ** 2, 1.0), "it has come to rest with 0.21 m left"),
+        ((SWINGS, np.clip(60 * (SWINGS - 1.0), -0.6, 0.6), 1.0), "the commands jump between -0.60 and 0.60 m/s"),
+        ((DISTANCE, 0.02 * np.cumsum(DISTANCE - 1.0), 1.0), "each command is the last one and a share of what is left"),
     ],
 )
 def test_the_commands(given, words):
     found = NAMES["of_a_driver"](*given)
     assert words in found and bool(words) == bool(found), found
+
+
+@pytest.mark.parametrize(
+    ("last", "speed", "words"),
+    [(4e9, 0.2, "no command comes after 4.0 s, and"), (4e9, 0.0, ""), (8.9e9, 0.2, "")],
+)
+def test_commands_that_end_before_the_run(last, speed, words):
+    held = [{"line": 38, "code": "if left > 0.1:"}]
+    found = NAMES["of_an_end"](9e9, last, speed, held)
+    assert words in found and bool(words) == bool(found) == ("`if left > 0.1:` in line 38" in found)
+
+
+def test_a_lidar_that_is_turned():
+    assert "by 3.14 rad about z (--yaw)" in NAMES["of_a_turned_mount"]([0.0, 0.0, 1.0])
+    assert "by -0.20 rad about y (--pitch)" in NAMES["of_a_turned_mount"]([0.0, -0.1, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("sends", "takes", "found"), [("/sensors/wall", "/sensor/wall", True), ("/sensors/wall", "/robot/wall", False)]
+)
+def test_names_that_are_spelled_differently(sends, takes, found):
+    names = runpy.run_path(str(course_root() / "exercises/12_debugging/names.py"))
+    assert bool(names["of_a_spelling"](sends, takes)) == found
 
 
 @pytest.mark.parametrize(
@@ -176,6 +204,14 @@ BRIDGE = {
 def test_names_of_the_commands_that_are_exchanged(gz_topic, words):
     recording = SimpleNamespace(facts=lambda: {"bridges": [BRIDGE | {"gz_topic": gz_topic}]})
     assert words in CHECKS["commands_go_to_gazebo"](recording, {}).measured
+
+
+def test_a_direction_that_does_not_exist():
+    error = "/submission/bridge.yaml:16: the direction 'ROS_TO_GAZEBO' is none of BIDIRECTIONAL"
+    line = SimpleNamespace(text=f"[parameter_bridge-2] [ERROR] [1.0] [ros_gz_bridge]: {error}")
+    recording = SimpleNamespace(facts=lambda: {"bridges": []}, lines=lambda entity: [line])
+    finding = CHECKS["commands_go_to_gazebo"](recording, {})
+    assert "bridge.yaml, line 16: the direction 'ROS_TO_GAZEBO' is none of" in finding.explanation
 
 
 @pytest.mark.parametrize(
@@ -265,6 +301,15 @@ def test_a_ranger_that_publishes_nothing():
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: []
     )
     assert "before its publish() stand `if ahead:` in line 9" in CHECKS["_why_still"](recording)
+
+
+def test_what_the_ranger_warned_of_is_said_first():
+    line = SimpleNamespace(text='[python3-5] [WARN] [1.0] [ranger]: no frame for the scan: "lidar" does not exist')
+    place = {"file": "ranger_node.py", "line": 9, "code": "if ahead:", "sends": 12, "topic": "/wall"}
+    recording = SimpleNamespace(
+        facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: [line]
+    )
+    assert "on /wall; it warned: no frame for the scan" in CHECKS["_why_still"](recording)
 
 
 def test_a_world_without_the_folder_of_the_launch_file():

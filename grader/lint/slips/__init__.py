@@ -21,6 +21,7 @@ from gz_course.grader.lint.slips.clocks import (
 )
 from gz_course.grader.lint.slips.geometry import (
     angles,
+    colours,
     euler_angles,
     filtered_rays,
     limited_values,
@@ -80,6 +81,7 @@ ROOMS = (
     limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS,
     rates.LOOKS, none_tests.LOOKS, one_array.LOOKS, shared_objects.LOOKS, endless_waits.LOOKS, own_calls.LOOKS,
     limited_values.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS, filtered_rays.LOOKS, map_starts.LOOKS,
+    colours.LOOKS,
 )  # fmt: skip
 
 

@@ -49,6 +49,7 @@ from gz_course.grader.lint.suspects.sensing import (
     bearings,
     bias_use,
     bias_while_turning,
+    exchanged_axes,
     farthest,
     gyroscopes,
     known_places,
@@ -57,6 +58,7 @@ from gz_course.grader.lint.suspects.sensing import (
     ray_parts,
     rays,
     same_places,
+    turned_angles,
 )
 from gz_course.grader.lint.suspects.steering import (
     drives,
@@ -134,6 +136,8 @@ LOOKS = (
     *made_poses.LOOKS,
     *standstills.LOOKS,
     *error_arithmetic.LOOKS,
+    *exchanged_axes.LOOKS,
+    *turned_angles.LOOKS,
 )
 MOST = 20  # suspects kept
 

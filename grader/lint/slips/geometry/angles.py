@@ -1,4 +1,4 @@
-"""Angles in the wrong unit or form: degrees for sin and cos, x and y of atan2 exchanged, a quaternion for an angle."""
+"""Angles in the wrong unit or form: degrees for sin and cos, x and y of atan2 exchanged, rays counted from the end."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.constants import named_numbers, number
-from gz_course.grader.lint.syntax import Place, walk
+from gz_course.grader.lint.syntax import Place, assigned, functions, walk
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
@@ -100,4 +100,65 @@ def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
                     yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
 
 
-LOOKS = (whole_parts_of_pi, degrees_for_radians, exchanged_atan2, quotients_for_directions, quaternions_for_angles)
+def rays_from_the_end(tree: ast.AST) -> Iterator[Place]:
+    """Find the bearing `scan.angle_max + i * scan.angle_increment`, which begins where a scan ends."""
+    counters = {
+        ast.unparse(node.target.elts[0] if isinstance(node.target, ast.Tuple) else node.target)
+        for node in walk(tree)
+        if isinstance(node, ast.For | ast.comprehension)
+        and isinstance(node.iter, ast.Call)
+        and (ast.unparse(node.iter.func), len(node.iter.args)) in (("enumerate", 1), ("range", 1))
+    }
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.Add(), left=first, right=ast.BinOp(op=ast.Mult(), left=one, right=other)):
+                texts = {ast.unparse(one), ast.unparse(other)}
+                end = ast.unparse(first).endswith("angle_max")
+                if end and texts & counters and any(each.endswith("angle_increment") for each in texts):
+                    code = ast.unparse(node)
+                    right = code.replace("angle_max", "angle_min")
+                    yield node.lineno, f"{code[:80]} begins where the scan ends: ray 0 looks to angle_min, {right[:80]}"
+
+
+def _of_a_frame(tree: ast.AST, value: ast.expr) -> bool:
+    """Return whether a coordinate is that of a frame: made with a transform, or put into the x of a message."""
+    made = {ast.unparse(target) for target, each in assigned(tree) if each is value}
+    return "translation" in ast.unparse(value) or any(
+        isinstance(target, ast.Attribute) and target.attr == "x" and (each is value or ast.unparse(each) in made)
+        for target, each in assigned(tree)
+        if not (isinstance(target, ast.Attribute) and ast.unparse(target.value) == "self")
+    )
+
+
+def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
+    """Find the x of a ray that is made with its sine, with the y that is made with its cosine."""
+    for function in functions(tree):
+        bearings = {
+            ast.unparse(target)
+            for target, value in assigned(function)
+            if {"angle_min", "angle_increment"} <= {getattr(each, "attr", "") for each in walk(value)}
+        }
+        found: dict[tuple[str, str], ast.expr] = {}
+        for target, value in assigned(function):
+            waves = {
+                name for call, name in _calls(value) if name in ("sin", "cos") and ast.unparse(call.args[0]) in bearings
+            }
+            if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
+                found.setdefault((_axis(target), waves.pop()), value)
+        if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2 and _of_a_frame(tree, found["x", "sin"]):
+            yield (
+                found["x", "sin"].lineno,
+                f"x = {ast.unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
+                "ahead, has its cosine, and y, to the left, its sine",
+            )
+
+
+LOOKS = (
+    whole_parts_of_pi,
+    degrees_for_radians,
+    exchanged_atan2,
+    quotients_for_directions,
+    quaternions_for_angles,
+    rays_from_the_end,
+    exchanged_sines,
+)

@@ -1,4 +1,4 @@
-"""Pairs of sums of cosines and sines that turn no point: a sign is wrong, or cosine and sine are exchanged.
+"""Pairs of sums of cosines and sines that turn no point: a sign is wrong, one is changed before the other is made.
 
 Source: https://en.wikipedia.org/wiki/Rotation_matrix (in two dimensions).
 """
@@ -16,8 +16,11 @@ APART = 3  # lines between the two
 Row = dict[str, float]  # by factor, what it is multiplied with
 
 
-def no_rotation(tree: ast.AST) -> Iterator[Place]:
-    """Find `x = a * cos(h) - b * sin(h)` with `y = a * cos(h) + b * sin(h)`."""
+Pair = tuple[tuple[ast.BinOp, Row], tuple[ast.BinOp, Row]]
+
+
+def pairs(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, Pair]]:
+    """Yield two sums near each other of cosines and sines of one angle, times the same two factors."""
     for function in functions(tree):
         waves = {
             ast.unparse(target): value
@@ -33,17 +36,36 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
         for (first, angle, row), (second, other, below) in zip(rows[::2], rows[1::2], strict=False):
             if angle != other or set(row) != set(below) or second.lineno - first.lineno > APART:
                 continue
-            (a, b), (c, d) = row.values(), (below[name] for name in row)
-            if abs(a * d - b * c) < 1e-6:
-                continue  # the same coordinate twice
-            if max(abs(a * a + b * b - 1), abs(c * c + d * d - 1), abs(a * c + b * d)) > 1e-6:
-                one, two = row
-                yield (
-                    second.lineno,
-                    f"{ast.unparse(first)[:50]} and {ast.unparse(second)[:50]} do not turn a point: it is "
-                    f"{one} * cos - {two} * sin for x and {one} * sin + {two} * cos for y, if {one} is ahead and {two} "
-                    "to the left",
-                )
+            yield function, ((first, row), (second, below))
+
+
+def no_rotation(tree: ast.AST) -> Iterator[Place]:
+    """Find `x = a * cos(h) - b * sin(h)` with `y = a * cos(h) + b * sin(h)`."""
+    for _, ((first, row), (second, below)) in pairs(tree):
+        (a, b), (c, d) = row.values(), (below[name] for name in row)
+        if abs(a * d - b * c) < 1e-6:
+            continue  # the same coordinate twice
+        if max(abs(a * a + b * b - 1), abs(c * c + d * d - 1), abs(a * c + b * d)) > 1e-6:
+            one, two = row
+            yield (
+                second.lineno,
+                f"{ast.unparse(first)[:50]} and {ast.unparse(second)[:50]} do not turn a point: it is "
+                f"{one} * cos - {two} * sin for x and {one} * sin + {two} * cos for y, if {one} is ahead and {two} "
+                "to the left",
+            )
+
+
+def changed_between(tree: ast.AST) -> Iterator[Place]:
+    """Find `x = x * c - y * s` with `y = x * s + y * c` after it, which reads the x that has changed."""
+    for function, ((first, row), (second, _)) in pairs(tree):
+        made = {id(each.value): ast.unparse(each.targets[0]) for each in walk(function) if isinstance(each, ast.Assign)}
+        changed, other = made.get(id(first), ""), made.get(id(second), "")
+        if changed in row and other in row and changed != other:
+            yield (
+                second.lineno,
+                f"{other} = {ast.unparse(second)[:50]} reads {changed}, which line {first.lineno} has changed: the "
+                f"old one belongs here; assign both at once, {changed}, {other} = ..., ...",
+            )
 
 
 def _is_sum(node: ast.AST) -> bool:
@@ -79,4 +101,4 @@ def _terms(node: ast.expr, sign: float) -> Iterator[tuple[ast.expr, float]]:
             yield node, sign
 
 
-LOOKS = (no_rotation,)
+LOOKS = (no_rotation, changed_between)

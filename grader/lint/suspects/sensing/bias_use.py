@@ -1,4 +1,4 @@
-"""Suspects in how the bias of a gyroscope is used: as an angle instead of a rate, or not at all."""
+"""Suspects in how the bias of a gyroscope is used: as an angle instead of a rate, as a sum, or not at all."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.suspects.sensing.gyroscopes import angle_sums, reads_rates
+from gz_course.grader.lint.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 from gz_course.grader.lint.syntax import Suspect, assigned, walk
 
 BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
@@ -76,4 +76,34 @@ def never_used(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (subtracted_as_an_angle, never_used)
+def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a running sum of the standing rates that is subtracted as the bias, and divided nowhere."""
+    sums = {
+        ast.unparse(node.target): node
+        for function in reads_rates(tree)
+        for node in walk(function)
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and _is_rate(node.value, function)
+    }
+    divided = " ".join(
+        ast.unparse(node.left if isinstance(node, ast.BinOp) else node.target)
+        for node in walk(tree)
+        if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.Div)
+    )
+    for node in walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
+            made = sums.get(ast.unparse(node.right))
+            if made is not None and ast.unparse(node.right) not in divided:
+                yield (
+                    made.lineno,
+                    "gyroscope",
+                    f"{ast.unparse(made)[:60]} is the sum of the rates, and it is subtracted as their mean: divide it "
+                    "by their number",
+                )
+
+
+def _is_rate(value: ast.expr, function: ast.FunctionDef) -> bool:
+    """Say whether an expression is a turning rate alone, with no time beside it."""
+    return ast.unparse(expanded(value, assigned_once(function))).endswith("angular_velocity.z")
+
+
+LOOKS = (subtracted_as_an_angle, never_used, sums_for_means)

@@ -19,6 +19,7 @@ NO_MEANS = {  # what is called instead of the mean: what it gives
     **dict.fromkeys(("max", "amax"), "is the largest of the rates, their mean and the most noise"),
     **dict.fromkeys(("min", "amin"), "is the smallest of the rates, their mean and the most noise"),
 }
+SUMS = frozenset({"sum", "fsum", "nansum"})
 DEPTH = 4  # steps in which a name is replaced by what it was assigned
 
 
@@ -118,7 +119,10 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
 
 def _adds(node: ast.stmt, name: str) -> bool:
     """Say whether a statement adds to what an attribute was."""
-    return isinstance(node, ast.AugAssign) or (isinstance(node, ast.Assign) and name in ast.unparse(node.value))
+    again = re.compile(rf"{re.escape(name)}\b")
+    return isinstance(node, ast.AugAssign) or bool(
+        isinstance(node, ast.Assign) and again.search(ast.unparse(node.value))
+    )
 
 
 def replaced(tree: ast.AST) -> Iterator[Suspect]:
@@ -156,7 +160,7 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
-    """Find another axis than z, the orientation of the message, and parts of stamps."""
+    """Find another axis than z, and parts of stamps."""
     for function in reads_rates(tree):
         text = ast.unparse(function)
         for node in walk(function):
@@ -177,7 +181,7 @@ def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
             line = next(n.lineno for n in walk(function) if isinstance(n, ast.Attribute) and n.attr == "sec")
             yield line, "gyroscope", "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
     for node in walk(tree):
-        if isinstance(node, ast.Call) and ast.unparse(node.func) == "sum" and _undivided(tree, node):
+        if isinstance(node, ast.Call) and last_name(node.func) in SUMS and _undivided(tree, node):
             given = ast.unparse(node)
             if re.search("rate|bias|gyro|still|offset|sample", given):
                 yield node.lineno, "gyroscope", f"{given[:60]} is a sum; the bias is the mean: divide by their number"
@@ -378,4 +382,14 @@ def _sign(value: ast.expr) -> int:
     return 1
 
 
-LOOKS = (parts_of_times, rates_in_degrees, biases, signs, wrong_fields, turns_of_360, fixed_times, replaced, jumps)
+LOOKS = (
+    parts_of_times,
+    rates_in_degrees,
+    biases,
+    signs,
+    wrong_fields,
+    turns_of_360,
+    fixed_times,
+    replaced,
+    jumps,
+)

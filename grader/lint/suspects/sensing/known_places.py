@@ -122,6 +122,33 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
                     )
 
 
+def near_all(tree: ast.AST) -> Iterator[Suspect]:
+    """Find places that are new if they are near all known ones."""
+    for function, call, name in kept(tree):
+        for node in walk(function):
+            if not isinstance(node, ast.If) or call not in walk(ast.Module(node.body, [])):
+                continue
+            test = node.test
+            inside = (
+                test.args[0] if isinstance(test, ast.Call) and last_name(test.func) == "all" and test.args else None
+            )
+            if not isinstance(inside, ast.GeneratorExp | ast.ListComp) or name not in ast.unparse(inside):
+                continue
+            if isinstance(inside.elt, ast.Compare) and _far(_turned_over(inside.elt)):
+                yield (
+                    node.lineno,
+                    "same",
+                    f"{ast.unparse(test)[:60]} holds for a point that is near all known posts, and a post is new if "
+                    "it is far from all: > in place of <",
+                )
+
+
+def _turned_over(test: ast.Compare) -> ast.Compare:
+    """Return a comparison that holds where the given one does not."""
+    other = {ast.Lt: ast.GtE(), ast.LtE: ast.Gt(), ast.Gt: ast.LtE(), ast.GtE: ast.Lt()}
+    return ast.Compare(test.left, [other.get(type(each), each) for each in test.ops], test.comparators)
+
+
 def _far(test: ast.expr) -> bool:
     """Say whether a test holds for what is far away: a distance greater than something."""
     if not isinstance(test, ast.Compare) or len(test.ops) != 1:
@@ -154,4 +181,4 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
         )
 
 
-LOOKS = (only_one_compared, rounded, one_is_far, unturned)
+LOOKS = (only_one_compared, rounded, one_is_far, near_all, unturned)

@@ -123,6 +123,24 @@ def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def cropped(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a picture whose first columns are cut off, in a file that never adds their number again."""
+    for target, value in assigned(tree):
+        if not isinstance(value, ast.Subscript) or not isinstance(value.slice, ast.Tuple) or len(value.slice.elts) < 2:
+            continue
+        across = value.slice.elts[1]
+        first = ast.unparse(across.lower) if isinstance(across, ast.Slice) and across.lower is not None else ""
+        again = re.compile(rf"(?<![\w.])(?:\+ {re.escape(first)}|{re.escape(first)} \+)(?![\w.])")
+        of_picture = "imgmsg_to_cv2" in called(value) or ast.unparse(value.value) in _arrays(tree)
+        if first.isdigit() and int(first) and of_picture and not again.search(ast.unparse(tree)):
+            yield (
+                value.lineno,
+                "picture",
+                f"{ast.unparse(target)} begins at column {first} of the picture, so its column 0 is column {first}: "
+                f"add {first} to each column before cx is subtracted",
+            )
+
+
 def overflows(tree: ast.AST) -> Iterator[Suspect]:
     """Find the channel of a picture of 8 bits that is multiplied, added or subtracted as it is."""
     pictures = {
@@ -152,4 +170,4 @@ def _is_channel(value: ast.expr, pictures: set[str]) -> bool:
     return isinstance(value, ast.Subscript) and ast.unparse(value.value) in pictures
 
 
-LOOKS = (shapes, indices, unpacked_indices, middles, means_of_depths, overflows)
+LOOKS = (shapes, indices, unpacked_indices, middles, means_of_depths, cropped, overflows)

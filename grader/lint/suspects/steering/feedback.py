@@ -1,4 +1,4 @@
-"""Suspects in what feeds a measurement back: a mean for a distance, commands that add up, parameters that are kept."""
+"""Suspects in what feeds a measurement back: a mean for a distance, sums of commands, parameters kept or added."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, functions, last_name, set_to, walk
 
 MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"})
 ERROR = re.compile(
     r"err|integ|self\.(?:sum|total|i)\b", re.IGNORECASE
 )  # what the deviation from what is wanted, and its sum, are called
+PARAMETER = re.compile(r"(?:declare|get)_parameter\(")
+MEASURED = re.compile(r"\.range$|^min\(.*\branges\b")  # the distance of a Range, and the nearest of a scan
 STEPS = 4  # names followed at most
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -185,4 +187,21 @@ def kept_parameters(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (means, added_commands, integrals, kept_parameters)
+def added_setpoints(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a parameter that is added to a measured distance, where only the rest of the way could be meant."""
+    given = set_to(tree)
+    parameters, measured = (
+        {name for name, values in given.items() if any(pattern.search(ast.unparse(each)) for each in values)}
+        for pattern in (PARAMETER, MEASURED)
+    )
+    for node in walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        sides = [ast.unparse(each) for each in (node.left, node.right)]
+        for wanted, distance in (sides, sides[::-1]):
+            if wanted in parameters and (MEASURED.search(distance) or distance in measured):
+                said = f"{ast.unparse(node)[:60]}: what is left to drive is the difference, {distance} - {wanted}"
+                yield node.lineno, "setpoint", said
+
+
+LOOKS = (means, added_commands, integrals, kept_parameters, added_setpoints)

@@ -93,3 +93,15 @@ def test_what_turns_no_point(rotation):
 def test_constants_assigned_together_are_no_objects_to_be_recognised():
     text = FILE.format(**RIGHT) + "\n    def sign(self):\n        return 1 if self.side is LEFT else -1\n"
     assert "self.side is LEFT: is asks whether both are the same object" in slips(text.encode())[0]["said"]
+
+
+@pytest.mark.parametrize(
+    ("second", "found"),
+    [("y = x * s + y * c", True), ("y = old * s + y * c", False), ("z = x * s + y * c", False)],
+)
+def test_a_coordinate_that_is_changed_before_the_other_is_made(second, found):
+    text = "def turned(x, y, h):\n    c, s, old = cos(h), sin(h), x\n    x = x * c - y * s\n"
+    text += f"    {second}\n    return x, y\n"
+    assert ["y = x * s + y * c reads x, which line 3" in each["said"] for each in slips(text.encode())] == [
+        True
+    ] * found

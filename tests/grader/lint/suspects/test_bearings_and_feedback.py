@@ -35,6 +35,12 @@ WRONG = {
         "turn = self.out.angular.z + error", "self.out.angular.z = max(-1.5, turn)"
     ),
     "is an integral that nothing limits": ("self.total += d * 0.1", "command.angular.z = d + self.total"),
+    "left to drive is the difference, self.wall.range - self.stop_at": (
+        "self.stop_at = self.declare_parameter('stop_at', 1.0).value", "left = self.wall.range + self.stop_at"
+    ),
+    "left to drive is the difference, near - wanted": (
+        "near, wanted = min(scan.ranges), self.get_parameter('distance').value", "way = wanted + near"
+    ),
     "keeps a Parameter, which is a copy": ("self.distance = self.get_parameter('distance')",),
 }  # fmt: skip
 HARMLESS = [

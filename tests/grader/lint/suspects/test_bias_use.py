@@ -44,3 +44,11 @@ def test_a_bias_of_the_angle():
     ):
         found = suspects(text.encode())
         assert [each["about"] for each in found] == ["gyroscope"] and words in found[0]["said"], found
+
+
+def test_a_sum_is_no_mean():
+    summed = FILE.replace("(rate - self.bias) / self.samples", "rate")
+    assert ["is the sum of the rates" in each["said"] for each in suspects(summed.encode())] == [True]
+    divided = summed.replace("self.heading = 0.0", "self.heading = 0.0; self.bias /= self.samples")
+    assert suspects(divided.encode()) == []
+    assert suspects(summed.replace("(rate - self.bias) *", "(rate - self.bias / self.samples) *").encode()) == []

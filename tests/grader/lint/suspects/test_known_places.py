@@ -59,6 +59,7 @@ def test_a_right_way_with_another_method():
             "                self.posts.append((x, y))\n                break",
             "is done in the loop",
         ),
+        (f"if {ALL.replace('>', '<')}:\n            self.posts.append((x, y))", "near all known posts"),
         (f"if {ALL.replace('all', 'any')}:\n            self.posts.append((x, y))", "only if all are"),
     ],
 )

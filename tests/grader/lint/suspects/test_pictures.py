@@ -15,6 +15,8 @@ from gz_course.grader.lint.suspects import suspects
         ("columns, rows = np.nonzero(self.red_mask(colours))", "nonzero() returns the rows first"),
         ("xs, ys = numpy.where(red > 50)", "where() returns the rows first"),
         ("self.middle = message.height / 2", "made of the height"),
+        ("view = bridge.imgmsg_to_cv2(image)[:, 40:]", "begins at column 40 of the picture"),
+        ("picture = bridge.imgmsg_to_cv2(image)\nview = picture[20:100, 10:150]", "view begins at column 10"),
         ("self.fx, self.cx = message.k[0], message.k[5]", "the middle row"),
     ],
 )
@@ -35,6 +37,8 @@ def test_wrong(line, words):
         "self.width = colours.shape[1]",
         "picture = bridge.imgmsg_to_cv2(depth)\nahead = picture[row, column]",
         "self.middle = message.width / 2",
+        "view = bridge.imgmsg_to_cv2(image)[40:, :]",
+        "view = bridge.imgmsg_to_cv2(image)[:, 40:]\ncolumn = np.nonzero(view)[1].mean() + 40",
         "self.fx, self.cx, self.cy = message.k[0], message.k[2], message.k[5]",
     ],
 )

@@ -68,6 +68,7 @@ def test_a_right_file_has_none():
         ("(rate - bias) * dt", "(bias - rate) * dt", "gyroscope", "with a minus sign"),
         ("rate = message.angular_velocity.z", "rate = radians(message.angular_velocity.z)", "gyroscope", "57 times"),
         ("rate = message.angular_velocity.z", "rate = message.angular_velocity.z * pi / 180", "gyroscope", "57 times"),
+        ("sum(self.rates) / len(self.rates)", "(np.sum(self.rates) - 1)", "gyroscope", "the bias is the mean"),
         ("sum(self.rates) / len(self.rates)", "np.std(self.rates)", "gyroscope", "how much the rates scatter"),
         ("sum(self.rates) / len(self.rates)", "max(self.rates)", "gyroscope", "the largest of the rates"),
         ("sum(self.rates) / len(self.rates)", "self.rates[-1]", "gyroscope", "a single one of the rates"),
