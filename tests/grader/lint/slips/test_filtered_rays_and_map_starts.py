@@ -98,5 +98,52 @@ def test_a_start_with_another_use(text):
 
 
 @pytest.mark.parametrize(
-from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.geometry import filtered_rays, map_starts, sorted_rays
+    ("body", "number"),
+    [
+        ("if math.isinf(r):\n            continue\n        draw(angle, r)\n        angle += scan.angle_increment", 1),
+        ("if r < 3.0:\n            draw(angle, r)\n            angle += scan.angle_increment", 1),
+        ("angle += scan.angle_increment\n        if math.isinf(r):\n            continue\n        draw(angle, r)", 0),
+        ("if r < 3.0:\n            draw(angle, r)\n        angle += scan.angle_increment", 0),
+    ],
+)
+def test_an_angle_that_grows_only_with_some_rays(body, number):
+    text = f"""
+def on_scan(scan):
+    angle = scan.angle_min
+    for r in scan.ranges:
+        {body}
+"""
+    assert len(list(filtered_rays.left_out_before_the_next_angle(ast.parse(text)))) == number
+
+
+@pytest.mark.parametrize(
+    ("angle", "found"),
+    [
+        ("scan.angle_max + i * scan.angle_increment", True),
+        ("yaw + scan.angle_max + scan.angle_increment * i", True),
+        ("scan.angle_max - i * scan.angle_increment", False),
+        ("scan.angle_min + i * scan.angle_increment", False),
+        ("scan.angle_max + k * scan.angle_increment", False),
+    ],
+)
+def test_rays_that_are_counted_from_the_end(angle, found):
+    text = f"def on_scan(scan, yaw, k):\n    for i, r in enumerate(scan.ranges):\n        use(r, {angle})\n"
+    assert ["begins where the scan ends" in each["said"] for each in slips(text.encode())] == [True] * found
+
+
+@pytest.mark.parametrize(
+    ("code", "found"),
+    [
+        ("x, y = t.translation.x + r * math.sin(a), t.translation.y + r * math.cos(a)", True),
+        ("point.x, point.y = r * sin(a), r * cos(a)", True),
+        ("x, y = r * sin(a), r * cos(a); p.x, p.y = x, y", True),
+        ("x, y = r * sin(a), r * cos(a)", False),
+        ("x, y = t.translation.x + r * math.cos(a), t.translation.y + r * math.sin(a)", False),
+        ("point.x, point.y = r * sin(b), r * cos(b)", False),
+        ("point.x, point.y = c * r * cos(a) - s * r * sin(a), r * cos(a)", False),
+    ],
+)
+def test_the_sine_of_a_ray_is_not_ahead(code, found):
+    text = "def on_scan(scan, point, b, c, s, t):\n    for i, r in enumerate(scan.ranges):\n"
+    text += f"        a = scan.angle_min + i * scan.angle_increment\n        {code}\n        use(point)\n"
+    assert ["x, ahead, has its cosine" in each["said"] for each in slips(text.encode())] == [True] * found
