@@ -215,7 +215,7 @@ class ExecutorMonitor:
 
     def add_node(self, node: Any) -> None:
         """Watch a new node. With the first one, sleeping begins to take simulated time."""
-        self.threads.resume()  # it may have waited unseen, such as for a file; now it is at work until it waits again
+        self.threads.prepare()  # it may have waited unseen, such as for a file
         with self._lock:
             self._nodes[id(node)] = node
         rate = os.environ.get(SIMULATED_CLOCKS)

@@ -54,6 +54,10 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.clock:Clock.now": ("self", ""),
     "rclpy.timer:Rate.sleep": ("self", "_event wait"),
     "rclpy.node:Node.__init__": ("", "_publishers _subscriptions _time_source _guards"),
+    "rclpy.node:Node.create_publisher": ("", "_rclpy Publisher"),
+    "rclpy.node:Node.create_subscription": ("", "_rclpy Subscription"),
+    "rclpy.node:Node.create_client": ("", "_rclpy Client"),
+    "rclpy.node:Node.create_service": ("", "_rclpy Service"),
     "rclpy.node:Node.executor": EXISTS,
     "rclpy.node:Node.destroy_node": EXISTS,
     "rclpy.node:Node.get_publishers_info_by_topic": EXISTS,
@@ -193,9 +197,11 @@ def hears(subscription: Any, publisher: Any) -> bool:
 
 
 def _watch_nodes(monitor: ExecutorMonitor) -> None:
-    """Patch the beginning and the end of nodes."""
+    """Patch the beginning and the end of nodes, and what makes endpoints: it may wait in DDS, for a lock or a file."""
     from rclpy.node import Node
 
+    for name in ("__init__", "create_publisher", "create_subscription", "create_client", "create_service"):
+        setattr(Node, name, monitor.threads.working(getattr(Node, name)))
     begin, destroy = Node.__init__, Node.destroy_node
 
     def watched_begin(node: Any, *arguments: Any, **options: Any) -> None:

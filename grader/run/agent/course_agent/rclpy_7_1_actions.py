@@ -51,11 +51,16 @@ SERVERS = tuple(f"_is_{what}_ready" for what in ("goal_request", "cancel_request
 
 def install() -> None:
     """Start to watch actions. Raises ImportError if the imported rclpy is not the one expected."""
+    from rclpy.action.client import ActionClient
+    from rclpy.action.server import ActionServer
+
     if found := misfits(RELIED_UPON):
         raise ImportError(f"this rclpy cannot be kept in step: {found[0]}")
     monitor = monitor_of_this_process()
     _watch_clients(monitor)
     _watch_servers(monitor)
+    for end in (ActionClient, ActionServer):  # they make endpoints, as in `rclpy_7_1.py`
+        end.__init__ = monitor.threads.working(end.__init__)
 
 
 def _name(end: Any) -> str:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import _thread
 import contextlib
+import functools
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -31,6 +32,11 @@ AHEAD = 100e-6
 MOST_READS = 1_000  # of the clock without a wait in between
 MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in between
 POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
+
+# [s] for which no thread at work may have run until one that has made a node, and not waited since, is taken to wait
+# unseen. On a busy machine whoever holds a lock that it needs may get no processor for long.
+QUIET = 0.5
+LONGEST_LOOK = 0.1  # [s] of that which count between two looks; more is a machine that stood still
 
 # The clocks and the sleep of the machine, for the agent itself.
 monotonic, sleep, time_ns = time.monotonic, time.sleep, time.time_ns
@@ -71,7 +77,9 @@ class ThreadMonitor:
         self._waits: dict[int, Wait] = {}
         self._reads: dict[int, int] = {}
         self._polls: dict[int, int] = {}
-        self._elsewhere: dict[int, tuple[int, str]] = {}  # native id and number -> what the kernel said of it
+        self._preparing: set[int] = set()  # threads that have made a node and have not waited since
+        self._elsewhere: dict[int, tuple[int, str]] = {}  # number -> native id and what the kernel said of it
+        self._looked = self._quiet = 0.0  # [s] the last look, and for how long it has said that
 
     # Threads
 
@@ -126,6 +134,7 @@ class ThreadMonitor:
         self._reads.pop(number, None)
         self._polls.pop(number, None)
         self._working.discard(number)
+        self._preparing.discard(number)
         return wait
 
     def end(self, wait: Wait | None) -> None:
@@ -199,6 +208,16 @@ class ThreadMonitor:
         finally:
             self.calling.discard(number)
 
+    def working(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """Return a function that does the same; who calls it counts as at work whatever it waits for."""
+
+        @functools.wraps(function)
+        def call(*arguments: Any, **options: Any) -> Any:
+            with self.at_work():
+                return function(*arguments, **options)
+
+        return call
+
     def resume(self) -> None:
         """Count the calling thread as at work after a wait that is not watched, and report that."""
         number = self.mine()
@@ -208,12 +227,19 @@ class ThreadMonitor:
             self._working.add(number)
         self.on_idle()
 
+    def prepare(self) -> None:
+        """Count the calling thread as at work, which has made a node, until it waits; report that."""
+        if (number := self.mine()) is not None:
+            self._preparing.add(number)
+            self.resume()
+
     def look_for_strays(self, native: dict[int, int]) -> None:
         """Do not count threads as at work that do not run: they wait in calls that are not watched.
 
         `native` are the kernel's numbers of threads. If none that is at work has run or wanted to since the last look,
         they stay uncounted until their next watched wait, but for those that run a callback. While one does, another
-        may wait for it, such as for a lock that it holds: on a busy machine that takes long.
+        may wait for it, such as for a lock that it holds: on a busy machine that takes long. For the same reason
+        nobody is taken to wait before `QUIET` while a node is prepared.
         """
         said = {}
         for ident, kernel in native.items():
@@ -221,8 +247,10 @@ class ThreadMonitor:
             if number is not None and number in self._working:
                 said[number] = (kernel, _scheduled(kernel))
         quiet = all(text and self._elsewhere.get(number) == (kernel, text) for number, (kernel, text) in said.items())
-        self._elsewhere = said
-        if quiet:
+        now, before = monotonic(), self._looked
+        self._elsewhere, self._looked = said, now
+        self._quiet = self._quiet + min(now - before, LONGEST_LOOK) if quiet else 0.0
+        if quiet and (self._quiet >= QUIET or not self._preparing & said.keys()):
             with self.lock:
                 self._working -= said.keys() - self.calling
 
