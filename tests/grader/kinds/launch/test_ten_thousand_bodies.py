@@ -51,6 +51,7 @@ SENTENCES = (
     r"a Command in it \(such as xacro\), or its own Python, takes far too long",
     r"the robot has 10000 joints, far too many",
     r"has 10000 links with collisions, more than 2000",
+    r"a description of \d+ MiB is too large",
     r"the run was ended",
 )
 
