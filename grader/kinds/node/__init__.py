@@ -14,11 +14,11 @@ from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.lint.counters import counters
 from gz_course.grader.lint.delays import delays
 from gz_course.grader.lint.early_publishing import early_publishing
+from gz_course.grader.lint.logs import seldom_log, silent_log
 from gz_course.grader.lint.origins import before_speeds, conditions, of_the_drive, origins
 from gz_course.grader.lint.repetitions import repetitions
 from gz_course.grader.lint.rhythm import rhythm
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.language.sequences import silent_log
 from gz_course.grader.lint.slips.nodes.message_fields import message_fields
 from gz_course.grader.lint.slips.nodes.transforms import lookups, shared_headers
 from gz_course.grader.lint.suspects import suspects
@@ -96,6 +96,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "lookups": lookups(content),
         "shared_headers": shared_headers(content),
         "rhythm": rhythm(content),
+        "seldom_log": seldom_log(content),
         "silent_log": silent_log(content),
         "slips": slips(content, exercise.duration, message_fields(heard), names),
         "suspects": suspects(content),

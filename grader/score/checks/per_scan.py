@@ -133,6 +133,8 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
         why = Explanation(f"{shown(odd, 40)!r} in the log is no number{comma}: a number has digits and a decimal point")
     if parameters.has("log") and not given and not printed and (lines := recording.facts().get("silent_log")):
         why = Explanation(f"line {lines[0]['line']}: {lines[0]['said']}")
+    if parameters.has("log") and given and unanswered and (lines := recording.facts().get("seldom_log")):
+        why = Explanation(f"line {lines[0]['line']}: {lines[0]['said']}: {unanswered} scans have no line")
     if others and not given and example and (differs := line_difference(others, example)):
         why = Explanation(shown(differs, 300).replace("{}", ""))
     return Finding(False, expected, measured + wrong, at, explanation=str(why), answers=why)

@@ -25,6 +25,7 @@ from gz_course.grader.score.steps import told
 
 WAY = ("x", "y", "z")
 FALLS = "it falls over: nothing holds it up on that side"
+LEANS = "it leans: it does not stand level"
 SINKS = "it falls, or sinks into the ground"
 TIPS = (
     "it stands, but tips over when it drives: its body has no mass (no <inertial>), its centre of mass is too high, or "
@@ -34,6 +35,7 @@ EXPLODES = (
     "it is thrown about faster than anything falls: physics explodes, as with a controller of huge gain, parts that "
     "overlap, or masses and inertias that are no body's"
 )
+FALLEN = 0.3  # [rad] a robot leans by at least that has fallen over
 FASTEST = 15.0  # [rad/s] at which a robot may turn over; a small one that falls is slower
 PUSHED = "something pushes it up: it starts inside the ground or another body, or its own parts overlap"
 
@@ -70,6 +72,8 @@ def stands(recording: Recording, parameters: Table) -> Finding:
             why = EXPLODES
         elif why == FALLS and times[first] > until:
             why = TIPS
+        elif why == FALLS and leaning.max() < FALLEN:
+            why = LEANS
         if body := robot_of(recording, robot):
             warnings = launch_facts(recording).get("model_warnings", [])
             why = _of_its_parts(body, why, float(values["z"][0]), overlap(warnings, robot))
@@ -87,8 +91,8 @@ def _of_its_parts(body: Robot, why: str, height: float, pushes: str) -> str:
     `pushes` names parts that overlap.
     """
     said = ""
-    if why == FALLS and (said := standing.falls_over(body)):
-        said = f"it falls over: {said}"
+    if why in (FALLS, LEANS) and (said := standing.falls_over(body)):
+        said = f"{why.partition(':')[0]}: {said}"
     elif why == TIPS and (said := standing.tips_over(body)):
         said = f"it stands, but tips over when it drives: {said}"
     elif why == SINKS:

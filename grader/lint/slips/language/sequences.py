@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, Places, functions, last_name, left_early, places_in, walk
+from gz_course.grader.lint.syntax import Place, functions, last_name, left_early, walk
 
 READ_ONCE = frozenset({"filter", "map", "zip", "reversed", "iter", "enumerate"})
 READERS = frozenset({
@@ -132,35 +132,6 @@ def log_arguments(tree: ast.AST) -> Iterator[Place]:
                 f"{node.func.attr}() of the node's logger takes one text, and no values to fill in: write an f-string, "
                 "or put the values in with  '...' % (...)",
             )
-
-
-def silent_log(content: bytes) -> Places:
-    """Return where a file logs what nobody gets, and `said`, the words of a sentence; nothing if it logs rightly, too.
-
-    Exercises that ask for a log use it: elsewhere such lines do no harm.
-    """
-    return places_in(content, lambda tree: [{"line": line, "said": said} for line, said in _silent(tree)][:1])
-
-
-def _silent(tree: ast.Module) -> Iterator[Place]:
-    calls = [
-        node
-        for node in walk(tree)
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in LEVELS
-    ]
-    names = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
-    imported = any(
-        isinstance(node, ast.Import) and any(each.name == "logging" for each in node.names) for node in walk(tree)
-    )
-    for call in sorted(calls, key=lambda each: each.lineno):
-        if imported and "get_logger" not in names:
-            yield (
-                call.lineno,
-                "the module logging is Python's own log, which ROS does not read; the log of the node is "
-                "self.get_logger().info(...)",
-            )
-        elif "get_logger" in names and {last_name(each.func) for each in calls} == {"debug"}:
-            yield call.lineno, "debug() is silent at a logger's usual level, INFO: use info()"
 
 
 LOOKS = (read_twice, changed_while_read, compared_with_nan, log_arguments)

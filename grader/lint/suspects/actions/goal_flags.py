@@ -225,11 +225,12 @@ def waits_for_its_turn(tree: ast.AST) -> Iterator[Suspect]:
 
 def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, str]]:
     """Yield each place at which a function takes a lock for all that it does, or sleeps until a flag is set back."""
-    for statement in function.body:
+    for number, statement in enumerate(function.body):
+        driven = any(isinstance(each, ast.For | ast.While) for last in function.body[:number] for each in walk(last))
         if isinstance(statement, ast.With):
             for item in statement.items:
                 held = ast.unparse(item.context_expr)
-                if held in locks and any(isinstance(each, ast.Return) for each in walk(statement)):
+                if held in locks and not driven and any(isinstance(each, ast.Return) for each in walk(statement)):
                     yield statement.lineno, held
         call = statement.value if isinstance(statement, ast.Expr) else None
         held = ast.unparse(call.func).removesuffix(".acquire") if isinstance(call, ast.Call) else ""

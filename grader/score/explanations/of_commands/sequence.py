@@ -194,6 +194,8 @@ def ramps(drive: Drive) -> str:
         return ""
     steps = np.diff(values)
     growing, falling = np.mean(steps > 1e-4), np.mean(steps < -1e-4)
+    if said := _gentle(drive, values, steps):
+        return said
     if growing < 0.4 and falling < 0.4:
         return ""
     if growing and falling and min(growing, falling) > 0.3:
@@ -202,6 +204,20 @@ def ramps(drive: Drive) -> str:
     return (
         f"linear.x {way} from {values[0]:.2f} to {values[-1]:.2f} m/s, a ramp: {drive.speed:g} m/s is asked for from "
         "the first command on"
+    )
+
+
+def _gentle(drive: Drive, values: np.ndarray, steps: np.ndarray) -> str:
+    """Return that a speed which is held meanwhile grows at first, and falls before the stop; empty if it does not."""
+    up, down = np.flatnonzero(steps > 1e-4), np.flatnonzero(steps < -1e-4)
+    held = np.mean(np.abs(values - values.max()) < 0.05 * abs(values.max()))
+    if min(len(up), len(down)) < 2 or up[-1] > down[0] or held < 0.2:
+        return ""
+    times = drive.times[drive.moving]
+    return (
+        f"linear.x grows from {values[0]:.2f} to {values.max():.2f} m/s until {times[up[-1] + 1]:.2f} s and falls "
+        f"again from {times[down[0]]:.2f} s on, ramps at both ends: {drive.speed:g} m/s is asked for from the first "
+        "command to the last"
     )
 
 

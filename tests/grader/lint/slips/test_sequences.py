@@ -2,8 +2,8 @@
 
 import pytest
 
+from gz_course.grader.lint.logs import seldom_log, silent_log
 from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.language.sequences import silent_log
 from gz_course.grader.lint.whole_numbers import whole_numbers
 
 HEAD = """\
@@ -111,4 +111,19 @@ def test_numbers_of_float32_in_messages_are_found(lines, found):
 )
 def test_a_log_that_nobody_gets_is_found(lines, words):
     found = silent_log(callback(*lines))
+    assert bool(found) == bool(words) and all(words in place["said"] for place in found)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("throttle_duration_sec=1.0", "throttle_duration_sec=1.0 lets this line through once in 1.0 s only"),
+        ("once=True", "once only"),
+        ("skip_first=True", "leaves out the first line"),
+        ("once=False", ""),
+        ("name='scan'", ""),
+    ],
+)
+def test_an_option_of_a_log_that_leaves_lines_out_is_found(options, words):
+    found = seldom_log(callback(f"self.get_logger().info('text', {options})"))
     assert bool(found) == bool(words) and all(words in place["said"] for place in found)

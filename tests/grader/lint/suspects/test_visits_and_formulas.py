@@ -66,6 +66,12 @@ def test_goals_that_wait_for_their_turn(waits, name):
     assert len(found) == 1 and f"waits here for {name}" in found[0]
 
 
+def test_a_lock_that_is_taken_at_the_end_lets_no_goal_wait():
+    end = "        handle.succeed()\n        return Patrol.Result(visited=visited)\n"
+    held = "        with self.turn:\n            handle.succeed()\n            return Patrol.Result(visited=visited)\n"
+    assert end in RIGHT and not said(RIGHT.replace(end, held), "queued")
+
+
 @pytest.mark.parametrize(
     ("formula", "words"),
     [

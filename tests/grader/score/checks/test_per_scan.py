@@ -158,3 +158,16 @@ def test_a_log_that_nobody_gets_is_explained_by_the_file(record):
     arrays = {"topics/lidar/scan/ranges": [(t, RANGES) for t in TIMES]}
     recording = record(signals, arrays=arrays, facts={"silent_log": [{"line": 7, "said": "debug() is silent"}]})
     assert per_scan(recording, LOG).explanation == "line 7: debug() is silent"
+
+
+def test_a_log_that_leaves_lines_out_is_explained_by_the_file(record):
+    signals = {f"topics/lidar/scan/range_{n}": [(t, v) for t in TIMES] for n, v in (("min", 0.25), ("max", 10.0))}
+    arrays = {"topics/lidar/scan/ranges": [(t, RANGES) for t in TIMES]}
+    facts = {"seldom_log": [{"line": 7, "said": "once=True lets this line through once only"}]}
+    line = logged("avg=1.50m")[0][1]
+
+    def found(times):
+        return per_scan(record(signals, arrays=arrays, lines=[(t + 0.01, line) for t in times], facts=facts), LOG)
+
+    assert found(TIMES[::5]).explanation == "line 7: once=True lets this line through once only: 16 scans have no line"
+    assert found(TIMES).passed

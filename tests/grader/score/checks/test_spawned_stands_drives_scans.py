@@ -74,6 +74,7 @@ def test_a_robot_that_comes_late_was_not_there(record, found):
         ({"x": lambda at: max(0.0, at - 1.0)}, ""),
         ({"z": lambda at: -0.01 * (at > 0.2)}, ""),
         ({"qy": lambda at: min(at / 2, 0.5)}, "it falls over"),
+        ({"qy": lambda at: min(at / 2, 0.12)}, "it leans"),
         ({"qx": lambda at: min(max(at - 3, 0.0), 0.5)}, "tips over when it drives"),
         ({"qx": lambda at: 0.9 * (at > 3)}, "physics explodes"),
         ({"z": lambda at: -at}, "sinks"),

@@ -80,6 +80,9 @@ WRONG = {
     "two publish() calls": drive(lambda now, calls: [GO, STOP] if now < 5.2 else STOP),
     "driven again at": drive(lambda now, calls: GO if now % 4 < 2.6 else STOP),
     "a ramp": drive(lambda now, calls: (min(0.5, 0.02 * calls), 0.1) if now < 5.2 else STOP),
+    "until 2.00 s and falls again from 4.00 s on, ramps at both ends": drive(
+        lambda now, calls: (min(0.5, 0.25 * now, 0.5 * (5.2 - now)), 0.1) if now < 5.2 else STOP
+    ),
     "slower and no stop": drive(lambda now, calls: GO if now < 5.2 else (0.1, 0.0)),
     "what sends the drive goes on after the stop": drive(lambda now, calls: STOP if now == 5.0 else GO),
     "each Twist takes the place of the one before": drive(
