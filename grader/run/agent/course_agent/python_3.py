@@ -56,6 +56,7 @@ THREADS: dict[str, Reliance] = {
     "concurrent.futures.thread:ThreadPoolExecutor.__init__": ("", "SimpleQueue queue"),
 }
 CLOCKS = ("time", "monotonic", "perf_counter")
+SIGNALS = ("pause", "sigtimedwait", "sigwait", "sigwaitinfo")  # calls that wait for a signal
 
 _waiting = False
 _asked_at = -1.0  # [s] of real time
@@ -199,6 +200,7 @@ def install_threads(threads: ThreadMonitor) -> None:
     global _threads
     import queue
     import select
+    import signal
     import threading
     import time
 
@@ -248,6 +250,13 @@ def install_threads(threads: ThreadMonitor) -> None:
         lock.acquire()
         lock.acquire(True, seconds)
 
+    def watched(waits: Any) -> Any:
+        def wait(*args: Any) -> Any:
+            with threads.waiting():
+                return waits(*args)
+
+        return wait
+
     def told_select(reading: Any, writing: Any, failing: Any, timeout: float | None = None) -> Any:
         if not threads.simulated or threads.mine() is None or timeout is None or timeout <= 0:
             return selecting(reading, writing, failing, timeout)
@@ -263,6 +272,8 @@ def install_threads(threads: ThreadMonitor) -> None:
     module._shutdown = unwatched_shutdown
     queue.SimpleQueue = queue._PySimpleQueue  # type: ignore[attr-defined, misc]
     time.sleep, select.select = told_sleep, told_select
+    for name in SIGNALS:
+        setattr(signal, name, watched(getattr(signal, name)))
     for name in CLOCKS:
         _follow(time, name, threads)
     # These have bound the clock under names of their own.

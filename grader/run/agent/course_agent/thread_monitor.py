@@ -33,8 +33,8 @@ MOST_READS = 1_000  # of the clock without a wait in between
 MOST_POLLS = 3  # of an executor that has nothing to do, without a wait in between
 POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at most
 
-# [s] for which no thread at work may have run until one that has made a node, and not waited since, is taken to wait
-# unseen. On a busy machine whoever holds a lock that it needs may get no processor for long.
+# [s] for which no thread at work may have run, all together, until one that has made a node, and not waited since, is
+# taken to wait unseen. On a busy machine whoever holds a lock that it needs may get no processor for long.
 QUIET = 0.5
 LONGEST_LOOK = 0.1  # [s] of that which count between two looks; more is a machine that stood still
 
@@ -79,7 +79,8 @@ class ThreadMonitor:
         self._polls: dict[int, int] = {}
         self._preparing: set[int] = set()  # threads that have made a node and have not waited since
         self._elsewhere: dict[int, tuple[int, str]] = {}  # number -> native id and what the kernel said of it
-        self._looked = self._quiet = 0.0  # [s] the last look, and for how long it has said that
+        self._looked = 0.0  # [s] the last look
+        self._quiet = 0.0  # [s] for which nobody has run since a thread has made a node
 
     # Threads
 
@@ -231,6 +232,7 @@ class ThreadMonitor:
         """Count the calling thread as at work, which has made a node, until it waits; report that."""
         if (number := self.mine()) is not None:
             self._preparing.add(number)
+            self._quiet = 0.0
             self.resume()
 
     def look_for_strays(self, native: dict[int, int]) -> None:
@@ -249,7 +251,7 @@ class ThreadMonitor:
         quiet = all(text and self._elsewhere.get(number) == (kernel, text) for number, (kernel, text) in said.items())
         now, before = monotonic(), self._looked
         self._elsewhere, self._looked = said, now
-        self._quiet = self._quiet + min(now - before, LONGEST_LOOK) if quiet else 0.0
+        self._quiet += min(now - before, LONGEST_LOOK) if quiet else 0.0
         if quiet and (self._quiet >= QUIET or not self._preparing & said.keys()):
             with self.lock:
                 self._working -= said.keys() - self.calling
