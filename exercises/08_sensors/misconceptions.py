@@ -251,15 +251,17 @@ def other_count(recording, number, when):
     before = came <= when
     if not before.any():
         return ""
-    same = Counter(stamps[before].tolist())
-    if number == max(same.values()) < red:
-        return "that is how many were in one picture: they must be remembered over the whole turn"
+    together = max(Counter(stamps[before].tolist()).values())
+    if number == together < red and (why := suspect(recording, "one picture")):
+        return f"that is how many were in one picture: {why}"
     x, y, yaw = (each[before] for each in CHECKS.pose(recording, stamps))
     here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
     turned = [*turned_otherwise(recording, when)] if number > red + 2 else []  # so many are hardly a coincidence
     if said := the_only_one(number, turned):
         return said
-    if said := the_only_one(number, [*turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]):
+    picture = "that is how many were in one picture: they must be remembered over the whole turn"
+    ways = [(picture, together), *turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]
+    if said := the_only_one(number, ways):
         return said
     if number == len(names):
         return "that is the number of all posts, of every colour"

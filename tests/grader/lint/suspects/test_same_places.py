@@ -79,3 +79,39 @@ def test_the_smallest_x_is_not_the_nearest(target):
 def test_a_list_that_is_emptied_and_counted():
     ((about, said),) = found(pictures="self.posts = []")
     assert about == "same" and "emptied here again and again" in said
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        (
+            "d = hypot(x, y)\n        if all(abs(d - hypot(*p)) > SAME for p in self.posts):\n            {add}",
+            "distance",
+        ),
+        (
+            "d = np.linalg.norm((x, y))\n        for p in self.posts:\n            "
+            "if abs(np.linalg.norm(p) - d) < SAME:\n                return\n        {add}",
+            "distance",
+        ),
+        ("d = hypot(x, y)\n        if all(abs(d - p) > SAME for p in self.posts):\n            {one}", "distance"),
+        (
+            "b = atan2(y, x)\n        if all(abs(b - atan2(*p[::-1])) > SAME for p in self.posts):\n            {add}",
+            "direction",
+        ),
+        (
+            "d, b = hypot(x, y), atan2(y, x)\n        if all(abs(d - hypot(*p)) > SAME or "
+            "abs(b - atan2(p[1], p[0])) > 0.2 for p in self.posts):\n            {add}",
+            "",
+        ),
+    ],
+)
+def test_one_measure_of_a_place_does_not_tell_posts_apart(body, words):
+    said = found(body=body.format(add="self.posts.append((x, y))", one="self.posts.append(d)"))
+    assert len(said) == bool(words) and all(f"compares only the {words}" in each for _, each in said), said
+
+
+@pytest.mark.parametrize(("counted", "told"), [("len(here)", True), ("max(self.n, len(here))", True), ("7", False)])
+def test_a_number_of_one_picture_that_is_published(counted, told):
+    pictures = f"here = []\n        self.n = {counted}\n        self.counts.publish(Int32(data=self.n))"
+    said = [about for about, _ in found(pictures=pictures)]
+    assert said == ["one picture"] * told
