@@ -20,6 +20,7 @@ BEHIND = 0.8 * np.pi  # [rad] bearing beyond which a point does not count as on 
 TOUCH = 0.004  # [m] between the robot and a wall
 AT_ONCE = 0.4  # [s] in which a new parameter takes effect
 APPROACHED = 5.0  # [s] in which the robot comes to its wall
+WEAVES = 0.25  # [rad/s] turns of either side beyond it count as weaving
 WIDE = 0.3  # [m] error up to which the robot makes progress along its wall
 # [m] chassis and wheels: from x, to x, from y, to y
 PARTS = ((-0.18, 0.12, -0.1, 0.1), (-0.05, 0.05, -0.14, 0.14))
@@ -122,9 +123,14 @@ def _outside(x, y, low_x, high_x, low_y, high_y):
     return np.hypot(np.maximum(np.maximum(low_x - x, x - high_x), 0), np.maximum(np.maximum(low_y - y, y - high_y), 0))
 
 
+def misconceptions():
+    """Return the functions of the other file, which need much of what this one needs seldom."""
+    return runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
+
+
 def _finding(run, passed, expected, measured, at=None):
     """Return a finding; one that failed asks which misconception fits."""
-    why = "" if passed else runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))["explain"](run)
+    why = "" if passed else misconceptions()["explain"](run)
     return Finding(bool(passed), expected, measured, None if at is None else round(float(at), 2), explanation=why)
 
 
@@ -185,8 +191,17 @@ def _slow(run):
         suspect(run.recording, "divided")
         or DRIVING["silent"](run, times)
         or DRIVING["backwards"](run)
+        or _late(run)
         or DRIVING["slow"](run)
     )
+
+
+def _late(run):
+    """Return why a robot that weaves is slow, if its commands come late; empty if not."""
+    if count_swings(run.turning, WEAVES) < max(6, np.abs(run.along).sum()):
+        return ""
+    why = suspect(run.recording, "delay") or misconceptions()["late"](run)
+    return f"the robot weaves, which makes it slow: {why}" if why else ""
 
 
 def touches_nothing(recording, parameters):
