@@ -19,6 +19,7 @@ LIMIT = 1.5  # [rad/s] of this course's robots
 DEEP = 12  # steps in which values are followed
 SIGN = re.compile(r"sign|side|direction")
 UNIT = frozenset({"cos", "sin", "tanh", "sign", "copysign", "exp"})  # results that are 1 at most
+NOWHERE = "is not limited at all"
 COLLECTED = frozenset({"sum", "mean", "fmean", "median", "average", "pop", "popleft", "get", "dot", "filter", "update"})
 Found = tuple[int, str]
 
@@ -48,7 +49,8 @@ def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
                     found.add((value.lineno, f"{ast.unparse(value)[:60]} may be up to {rate.most:.2f} rad/s"))
     except UnknownValueError:
         return
-    if len(found) == 1:
+    limits = any(number(node, {}) == LIMIT for node in walk(tree) if isinstance(node, ast.Constant))
+    if len(found) == 1 and (limits or NOWHERE not in next(iter(found))[1]):
         line, said = found.pop()
         yield line, "limit", said
 
@@ -99,7 +101,9 @@ def _rates(
             return _called(node, function, values, known, deep)
         case ast.Subscript(value=ast.Attribute() as kept) if ast.unparse(kept).startswith("self."):
             raise UnknownValueError  # what was kept may be limited
-    return [Rate()]
+        case ast.Subscript():
+            return [Rate()]
+    raise UnknownValueError
 
 
 def _called(
@@ -122,8 +126,11 @@ def _called(
             raise UnknownValueError  # it may limit by comparisons
         return [rate for value, place in values.returned(own) for rate in _rates(value, place, values, known, deep - 1)]
     if name in ("min", "max") and len(call.args) == 2 and any(number(part, known) is not None for part in call.args):
+        parts = [rate for part in call.args for rate in _rates(part, function, values, known, deep - 1)]
+        most = max(rate.most for rate in parts)
         way = "from above" if name == "min" else "from below"
-        return [Rate(found=(call.lineno, f"{ast.unparse(call)[:60]} limits angular.z {way} only"))]
+        said = f"{ast.unparse(call)[:60]} limits it {way} only"
+        return [Rate(most, found=(call.lineno, said) if most == float("inf") else None)]
     if name in COLLECTED:
         raise UnknownValueError  # what was collected may be limited
     return [Rate(1.0)] if name in UNIT else [Rate()]
@@ -209,7 +216,13 @@ class Speeds:
             case ast.Call(args=[one, other]) if last_name(node.func) in ("min", "max"):
                 small = last_name(node.func) == "min"
                 return [_chosen(small, a, b) for a in inside(one) for b in inside(other)]
-            case ast.Call(args=[_, _, high]) if last_name(node.func) == "clip":
+            case ast.Call(args=[_]) if last_name(node.func) in ("min", "max"):
+                return [FREE]
+            case ast.Call(args=args) if last_name(node.func) == "min" and any(AT_MOST in inside(each) for each in args):
+                return [AT_MOST]
+            case ast.Call(args=[_, low, high]) if (
+                last_name(node.func) == "clip" and number(low, self.known) is not None
+            ):
                 return inside(high)
             case ast.Call(args=[one]) if last_name(node.func) in ("float", "abs", "fabs"):
                 return inside(one)

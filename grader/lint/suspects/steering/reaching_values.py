@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.lint.slips.language.own_calls import calls_of_own, parameters
-from gz_course.grader.lint.syntax import functions, walk
+from gz_course.grader.lint.syntax import functions, last_name, walk
 
 Path = tuple[int, ...]
 At = tuple[ast.expr, ast.FunctionDef]  # an expression, and the function it stands in
@@ -44,37 +44,40 @@ class ReachingValues:
                 raise UnknownValueError
         if not before:
             return list(self._given(text, function))
-        return [(value, function) for node in before for value in self._assigned(node, text)]
+        return [at for node in before for at in self._assigned(node, text, function)]
 
     def returned(self, function: ast.FunctionDef, place: int | None = None) -> list[At]:
         """Return what a function of the file returns, or the item at a place of each tuple."""
-        found = []
+        found: list[At] = []
         for node in walk(function):
-            if isinstance(node, ast.Return) and node.value is not None:
-                if place is not None and not isinstance(node.value, ast.Tuple):
-                    raise UnknownValueError
-                value = node.value.elts[place] if place is not None else node.value  # type: ignore[attr-defined]
-                found.append((value, function))
+            if not isinstance(node, ast.Return) or node.value is None:
+                continue
+            value = node.value
+            if place is not None and isinstance(value, ast.Tuple) and place < len(value.elts):
+                value = value.elts[place]
+            elif place is not None and (isinstance(value, ast.Name) or last_name(_function(value)) in self.own):
+                raise UnknownValueError
+            found.append((value, function))
         if not found:
             raise UnknownValueError
         return found
 
-    def _assigned(self, node: ast.stmt, text: str) -> Iterator[ast.expr]:
-        """Yield what an assignment gives to one of its targets."""
-        value = node.value  # type: ignore[attr-defined]
+    def _assigned(self, node: ast.stmt, text: str, function: ast.FunctionDef) -> Iterator[At]:
+        """Yield what an assignment gives to one of its targets; nothing for an item of what is no tuple."""
+        value: ast.expr = node.value  # type: ignore[attr-defined]
         if isinstance(node, ast.AugAssign):
             old = ast.copy_location(ast.parse(text, mode="eval").body, node)
-            yield ast.copy_location(ast.BinOp(old, node.op, node.value), node)
+            yield ast.copy_location(ast.BinOp(old, node.op, node.value), node), function
             return
         for target in node.targets if isinstance(node, ast.Assign) else [node.target]:  # type: ignore[attr-defined]
             if ast.unparse(target) == text:
-                yield value
+                yield value, function
             elif isinstance(target, ast.Tuple) and text in map(ast.unparse, target.elts):
                 place = [ast.unparse(each) for each in target.elts].index(text)
                 if isinstance(value, ast.Tuple) and len(value.elts) == len(target.elts):
-                    yield value.elts[place]
-                else:
-                    raise UnknownValueError
+                    yield value.elts[place], function
+                elif own := self.own.get(last_name(_function(value))):
+                    yield from self.returned(own, place)
 
     def _given(self, text: str, function: ast.FunctionDef) -> Iterator[At]:
         """Yield what the calls of a function in the file pass for one of its parameters."""
@@ -94,6 +97,11 @@ class ReachingValues:
                 if caller is None:
                     raise UnknownValueError
                 yield arguments[text], caller
+
+
+def _function(value: ast.expr) -> ast.expr:
+    """Return what is called; the expression itself if it is no call."""
+    return value.func if isinstance(value, ast.Call) else value
 
 
 def _paths(body: list[ast.stmt], above: Path) -> Iterator[tuple[ast.stmt, Path]]:
