@@ -229,17 +229,26 @@ def keeps_limits(recording, parameters):
             )
             seen = f"{said}; the worst was {worst:.2f} {unit}"
             old = name == "linear/x" and not ((signal.values > high + 1e-3) | (signal.values < low - 1e-3)).any()
-            stale = suspect(recording, "parameter speed_limit", "seldom speed_limit", "parameter")
-            why = (
-                f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at "
-                f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: "
-                f"{stale or 'the old limit still counts'}"
-                if old
-                else (too_fast(run, worst) if name == "linear/x" else suspect(recording, "limit"))
-                or limits_missed(name.replace("/", "."), signal.values, low, high)
-            )
+            if old:
+                why = old_limit(run, signal, float(worst))
+            else:
+                why = too_fast(run, worst) if name == "linear/x" else suspect(recording, "limit")
+            why = why or limits_missed(name.replace("/", "."), signal.values, low, high)
             return Finding(False, expected, seen, round(float(at), 2), explanation=why)
     return Finding(True, expected, "every command was")
+
+
+def old_limit(run, signal, worst):
+    """Return why linear.x still goes up to `worst` [m/s] after speed_limit was set to less."""
+    changed = run.limits.times[-1]
+    before = signal.values[signal.times < changed]
+    why = suspect(run.recording, "parameter speed_limit", "seldom speed_limit", "parameter", "speed limit")
+    if not why and len(before) and worst > 0.95 * before.max():
+        why = "the old limit still counts"
+    return (
+        f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at {changed / 1e9:g} s, and linear.x "
+        f"still goes up to {worst:.2f} m/s: {why or 'the new limit is not that of all that is sent'}"
+    )
 
 
 def too_fast(run, worst):
@@ -263,6 +272,9 @@ def limits_missed(name, values, low, high):
     worst = float(np.abs(values).max())
     if np.mean(np.abs(np.abs(values) - worst) < 1e-3) > 0.1:
         return f"{name} is limited to {worst:.2f}, but {high:g} is the limit"
+    for bound, other, within in ((high, low, values.max() <= high + 1e-3), (low, high, values.min() >= low - 1e-3)):
+        if low < 0 and within and (np.abs(values - bound) < 1e-3).sum() > 2:
+            return f"{name} is limited at {bound:g}, but not at {other:g} on the other side"
     return f"{name} is not limited, or something is added to it after that"
 
 

@@ -64,6 +64,27 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     return False
 
 
+def by_number(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is new if few are known, where nothing compares it with those that are."""
+    adding = {function.name for function, _, _ in kept(tree)}
+    for function, call, name in kept(tree):
+        if any(_goes_through(tree, each, name) for each in functions(tree)):
+            continue
+        inner = {id(node) for node in walk(function)}
+        for node in walk(tree):
+            if not isinstance(node, ast.If) or f"len({name})" not in ast.unparse(node.test):
+                continue
+            done = walk(ast.Module(node.body, []))
+            calls_it = any(isinstance(each, ast.Call) and last_name(each.func) in adding for each in done)
+            if any(each is call for each in done) or (calls_it and id(node) not in inner):
+                yield (
+                    node.lineno,
+                    "same",
+                    f"{ast.unparse(node.test)[:60]} decides by how many posts are known whether one is new: a post is "
+                    f"new if its place is far from all places in {name}",
+                )
+
+
 def rounded(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are the same if their rounded numbers are, or only if their numbers are equal."""
     for function, call, name in kept(tree):
@@ -181,4 +202,4 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
         )
 
 
-LOOKS = (only_one_compared, rounded, one_is_far, near_all, unturned)
+LOOKS = (only_one_compared, by_number, rounded, one_is_far, near_all, unturned)

@@ -159,8 +159,8 @@ def _product(node: ast.BinOp, one: Rate, other: Rate) -> Rate:
     return Rate(most, limited=limited)
 
 
-# What a speed may be: speed_limit at most, a share of 1 at most and 0 at least, a number, or anything.
-AT_MOST, SHARE, FREE = "speed_limit", "share", "free"
+# What a speed may be: speed_limit at most, from 0 to 1, 1 at least, a number, or anything.
+AT_MOST, SHARE, AT_LEAST, FREE = "speed_limit", "share", "1 at least", "free"
 Speed = str | float | Found
 
 
@@ -174,10 +174,8 @@ def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
             for speed in speeds.of(value, function):
                 if isinstance(speed, tuple):
                     found.add(speed)
-                elif speed == FREE:
-                    found.add((value.lineno, f"{ast.unparse(value)[:60]} is not limited by speed_limit"))
                 elif isinstance(speed, float) and speed > 0:
-                    said = f"{ast.unparse(value)[:60]} is {speed:g} m/s, whatever speed_limit is"
+                    said = f"{ast.unparse(value)[:60]} may be {speed:g} m/s, whatever speed_limit is"
                     found.add((value.lineno, said))
     except UnknownValueError:
         return
@@ -202,7 +200,7 @@ class Speeds:
             return [float(given)]
 
         def inside(part: ast.expr) -> list[Speed]:
-            return self.of(part, function, deep - 1)
+            return [FREE] if _is_size(part) else self.of(part, function, deep - 1)
 
         match node:
             case ast.IfExp(body=body, orelse=orelse):
@@ -228,7 +226,11 @@ class Speeds:
                 return inside(one)
             case ast.Call():
                 name = last_name(node.func)
-                if name in self.values.own or name in LIMITING or name in ("min", "max", "get"):
+                limits = [number(part, self.known) for part in node.args[1:]]
+                if name in LIMITING[2:] and limits and all(each is not None and 0 <= each <= 1 for each in limits):
+                    return [SHARE]
+                own = name in self.values.own or ast.unparse(node.func).startswith("self.")
+                if own or name in LIMITING or name in ("min", "max", "get"):
                     raise UnknownValueError
                 return [SHARE if name in UNIT else FREE]
         return [FREE]
@@ -248,6 +250,11 @@ def _positive(node: ast.expr) -> bool:
     return False
 
 
+def _is_size(node: ast.expr) -> bool:
+    """Say whether an expression is made of what has no sign, whatever it is otherwise."""
+    return _positive(node) and not isinstance(node, ast.Constant) and "min(" not in ast.unparse(node)
+
+
 def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positive: bool) -> Speed:
     """Return what a sum, a difference, a product or a quotient of two values may be."""
     for each in (one, other):
@@ -257,6 +264,8 @@ def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positi
     share = [each == SHARE or (isinstance(each, float) and 0 <= each <= 1) for each in (one, other)]
     if isinstance(one, float) and isinstance(op, ast.Sub) and one <= 1 and (positive or share[1]):
         return SHARE
+    if isinstance(one, float) and isinstance(op, ast.Add) and one >= 1 and positive:
+        return AT_LEAST
     if isinstance(op, ast.Mult) and AT_MOST in (one, other):
         if one == other or share[other != AT_MOST]:
             return AT_MOST
@@ -269,7 +278,7 @@ def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positi
             raise UnknownValueError
         return FREE
     if isinstance(op, ast.Div):
-        if isinstance(other, float) and other >= 1:
+        if other == AT_LEAST or (isinstance(other, float) and other >= 1):
             return AT_MOST
         if other == FREE and positive:
             raise UnknownValueError
@@ -291,6 +300,8 @@ def _chosen(small: bool, one: Speed, other: Speed) -> Speed:
         rest = other if one == AT_MOST else one
         if small or rest == AT_MOST or (isinstance(rest, float) and rest <= 0):
             return AT_MOST
+        if isinstance(rest, float):
+            return rest
         raise UnknownValueError
     numbers = [each for each in kinds if isinstance(each, float)]
     shares = [each == SHARE or (isinstance(each, float) and 0 <= each <= 1) for each in kinds]

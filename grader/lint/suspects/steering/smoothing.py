@@ -76,6 +76,12 @@ def moving_averages(tree: ast.Module) -> Iterator[Suspect]:
     known = named_numbers(tree)
     for function in functions(tree):
         stored = {ast.unparse(value): ast.unparse(target) for target, value in assigned(function)}
+        asked = {
+            text
+            for target, value in assigned(function)
+            if "get_parameter(" in ast.unparse(value) and "distance" in ast.unparse(value)
+            for text in (ast.unparse(target), ast.unparse(value))
+        } | {ast.unparse(call) for call, name in calls(function) if name == "get_parameter"}
         for node in walk(function):
             if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
                 name, share = ast.unparse(node.target), _share_of_step(node.value, ast.unparse(node.target), known)
@@ -85,7 +91,16 @@ def moving_averages(tree: ast.Module) -> Iterator[Suspect]:
                 share = _share(node.value, name, known)
             else:
                 continue
-            if share is not None and 0 < share <= LITTLE and name.startswith("self."):
+            if share is None or not 0 < share <= LITTLE or not name.startswith("self."):
+                continue
+            if asked & {ast.unparse(each) for each in walk(node.value) if isinstance(each, ast.Name | ast.Call)}:
+                yield (
+                    node.lineno,
+                    "seldom distance",
+                    f"{ast.unparse(node)[:70]} lets a new value of the parameter take effect over many scans, and it "
+                    "must at once: use the parameter itself",
+                )
+            else:
                 yield node.lineno, "delay", f"{ast.unparse(node)[:70]} {WORDS}"
 
 
@@ -142,6 +157,7 @@ def delay_lines(tree: ast.Module) -> Iterator[Suspect]:
     text, sizes = ast.unparse(tree), _sizes(tree)
     for node in walk(tree):
         value = node.value if isinstance(node, ast.Assign) else None
+        value = value.body if isinstance(value, ast.IfExp) else value
         oldest = ""
         match value:
             case ast.Call(func=ast.Attribute(value=kept, attr="popleft"), args=[]):

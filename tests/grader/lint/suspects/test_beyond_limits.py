@@ -89,6 +89,9 @@ def test_rates_beyond_their_limit(turning, words):
         "speed = limit / cos(away)\n        command.linear.x = min(speed, limit)",
         "command.linear.x = limit / 2 if abs(away) > 0.5 else limit",
         "command.linear.x = limit / (1 + abs(near))",
+        "command.linear.x = limit * np.clip(cos(away), 0.1, 1.0)",
+        "command.linear.x = limit * self.share(away)",
+        "command.linear.x = self.settings['speed_limit'] * max(0.1, cos(away))",
         "command.linear.x = max(0.0, limit - 0.2 * abs(near))",
         "command.linear.x = 0.4 * limit + 0.6 * limit * cos(away)",
     ],
@@ -106,7 +109,11 @@ def test_right_speeds(speed):
         ("command.linear.x = limit * 1.2", "multiplies limit by 1.2"),
         ("command.linear.x = limit + 0.3 * (nearest - 0.6)", "to limit, which is the limit already"),
         ("command.linear.x = limit - 0.3 * (nearest - 0.6)", "which is below 0 at times"),
-        ("command.linear.x = 0.8 * nearest", "is not limited by speed_limit"),
+        ("command.linear.x = limit * (0.8 + 0.3 * abs(near))", "multiplies limit by 0.8 + 0.3 * abs(near)"),
+        (
+            "command.linear.x = limit\n        command.linear.x = max(command.linear.x, 0.35)",
+            "may be 0.35 m/s, whatever speed_limit is",
+        ),
         ("command.linear.x = limit if away < 0.5 else 0.4", "0.4 m/s, whatever speed_limit is"),
     ],
 )

@@ -115,3 +115,9 @@ def test_a_number_of_one_picture_that_is_published(counted, told):
     pictures = f"here = []\n        self.n = {counted}\n        self.counts.publish(Int32(data=self.n))"
     said = [about for about, _ in found(pictures=pictures)]
     assert said == ["one picture"] * told
+
+
+def test_posts_that_are_told_apart_by_how_many_are_known():
+    body = "if len(self.posts) < len(self.seen):\n            self.posts.append((x, y))"
+    ((about, said),) = found(body=body)
+    assert about == "same" and "decides by how many posts are known" in said
