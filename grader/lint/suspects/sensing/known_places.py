@@ -68,12 +68,15 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is new if few are known, where nothing compares it with those that are."""
     adding = {function.name for function, _, _ in kept(tree)}
     for function, call, name in kept(tree):
-        if any(_goes_through(tree, each, name) for each in functions(tree)):
+        if _goes_through(tree, function, name):
             continue
         inner = {id(node) for node in walk(function)}
         for node in walk(tree):
-            if not isinstance(node, ast.If) or f"len({name})" not in ast.unparse(node.test):
+            if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
                 continue
+            sides = {ast.unparse(node.test.left), *map(ast.unparse, node.test.comparators)} - {f"len({name})"}
+            if f"len({name})" not in ast.unparse(node.test) or not any("len(" in each for each in sides):
+                continue  # a limit of how many there may be is none of that
             done = walk(ast.Module(node.body, []))
             calls_it = any(isinstance(each, ast.Call) and last_name(each.func) in adding for each in done)
             if any(each is call for each in done) or (calls_it and id(node) not in inner):
