@@ -263,7 +263,7 @@ def other_count(recording, number, when):
     ways = [(picture, together), *turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]
     if said := the_only_one(number, ways):
         return said
-    if number == len(names):
+    if number == len(names) and not after_another(here, number):
         return "that is the number of all posts, of every colour"
     if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
         return (
@@ -322,6 +322,18 @@ def ways_to_count(here, points, yaw):
         "that is the number if posts at the same distance are one: the direction counts, too",
         _distinct(distances[:, None], CHECKS.SAME_PLACE),
     )
+
+
+def after_another(here, number):
+    """Find out whether a number comes about, too, if points are compared with one known post alone."""
+    found = []
+    for which in (min, max):
+        known = [here[0]]
+        for place in here:
+            if np.linalg.norm(place - which(known, key=np.linalg.norm)) > CHECKS.SAME_PLACE:
+                known.append(place)
+        found.append(len(known))
+    return number in found
 
 
 def _distinct(places, apart, size=np.linalg.norm):

@@ -64,6 +64,28 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     return False
 
 
+def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is compared with the known one nearest to the robot, not with the one nearest to it."""
+    for function, call, name in kept(tree):
+        loops = [node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)]
+        if any(name in ast.unparse(loop.iter) for loop in loops):
+            continue
+        for chosen in _calls(function, {"min", "sorted"}):
+            keys = [each.value for each in chosen.keywords if each.arg == "key"]
+            differs = any(isinstance(node, ast.Sub) for key in keys for node in walk(key))
+            own = keys and (
+                differs or not isinstance(keys[0], ast.Lambda) or called(keys[0]) - {"hypot", "norm", "sqrt"}
+            )
+            of = ast.unparse(chosen.args[0]) if chosen.args else ""
+            if of == name and keys and not own and chosen.lineno <= call.lineno:
+                yield (
+                    chosen.lineno,
+                    "same",
+                    f"{ast.unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared with "
+                    f"that one only: compare it with all of {name}",
+                )
+
+
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is new if few are known, where nothing compares it with those that are."""
     adding = {function.name for function, _, _ in kept(tree)}
@@ -205,4 +227,4 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
         )
 
 
-LOOKS = (only_one_compared, by_number, rounded, one_is_far, near_all, unturned)
+LOOKS = (only_one_compared, nearest_one_compared, by_number, rounded, one_is_far, near_all, unturned)

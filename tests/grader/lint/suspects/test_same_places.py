@@ -121,3 +121,16 @@ def test_posts_that_are_told_apart_by_how_many_are_known():
     body = "if len(self.posts) < len(self.seen):\n            self.posts.append((x, y))"
     ((about, said),) = found(body=body)
     assert about == "same" and "decides by how many posts are known" in said
+
+
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [("lambda p: hypot(*p)", True), ("lambda p: hypot(p[0] - x, p[1] - y)", False), ("self.away", False)],
+)
+def test_a_point_that_is_compared_with_the_post_nearest_to_the_robot(key, told):
+    body = (
+        f"a, b = min(self.posts, key={key})\n        if hypot(x - a, y - b) > SAME:\n"
+        "            self.posts.append((x, y))"
+    )
+    said = found(body=body)
+    assert len(said) == told and all("nearest to the robot" in each for _, each in said), said
