@@ -81,8 +81,8 @@ def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     chosen.lineno,
                     "same",
-                    f"{ast.unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared with "
-                    f"that one only: compare it with all of {name}",
+                    f"{ast.unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared "
+                    f"with that one only: compare it with all of {name}",
                 )
 
 
