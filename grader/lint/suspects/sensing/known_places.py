@@ -90,18 +90,20 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is new if few are known, where nothing compares it with those that are."""
     adding = {function.name for function, _, _ in kept(tree)}
     for function, call, name in kept(tree):
-        if _goes_through(tree, function, name):
-            continue
+        compared = _goes_through(tree, function, name)
         inner = {id(node) for node in walk(function)}
         for node in walk(tree):
-            if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
+            if not isinstance(node, ast.If):
                 continue
-            sides = {ast.unparse(node.test.left), *map(ast.unparse, node.test.comparators)} - {f"len({name})"}
-            if f"len({name})" not in ast.unparse(node.test) or not any("len(" in each for each in sides):
+            tests = [each for each in walk(node.test) if isinstance(each, ast.Compare)]
+            sides = [{ast.unparse(each.left), *map(ast.unparse, each.comparators)} for each in tests]
+            if not any(
+                f"len({name})" in each and any("len(" in side for side in each - {f"len({name})"}) for each in sides
+            ):
                 continue  # a limit of how many there may be is none of that
             done = walk(ast.Module(node.body, []))
             calls_it = any(isinstance(each, ast.Call) and last_name(each.func) in adding for each in done)
-            if any(each is call for each in done) or (calls_it and id(node) not in inner):
+            if (any(each is call for each in done) and not compared) or (calls_it and id(node) not in inner):
                 yield (
                     node.lineno,
                     "same",

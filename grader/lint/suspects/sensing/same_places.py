@@ -46,6 +46,23 @@ def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `abs((x - a) + (y - b))`, in which two differences may cancel each other."""
+    for function in {each.name: each for each, _, _ in kept(tree)}.values():
+        for call, name in calls(function):
+            match call.args:
+                case [ast.BinOp(op=ast.Add(), left=ast.BinOp(op=ast.Sub()), right=ast.BinOp(op=ast.Sub()))] if name in (
+                    "abs",
+                    "fabs",
+                ):
+                    yield (
+                        call.lineno,
+                        "same",
+                        f"{ast.unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
+                        "posts at other places are taken for one: compare the distance, hypot(x - a, y - b)",
+                    )
+
+
 def _off(node: ast.AST | None, far: bool) -> bool:
     """Say whether a comparison holds for a difference without its sign that is large (`far`), or small."""
     if not isinstance(node, ast.Compare) or len(node.ops) != 1 or DISTANCE.search(ast.unparse(node)):
@@ -249,4 +266,13 @@ def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (smallest_x, each_coordinate, one_coordinate, one_measure, wrong_limits, emptied, of_one_picture)
+LOOKS = (
+    smallest_x,
+    each_coordinate,
+    cancelling_differences,
+    one_coordinate,
+    one_measure,
+    wrong_limits,
+    emptied,
+    of_one_picture,
+)

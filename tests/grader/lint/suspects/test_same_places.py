@@ -57,6 +57,7 @@ def test_right_rules(test):
         ("all((np.abs(np.array(p) - (x, y)) > SAME).all() for p in self.posts)", "their x or their y"),
         ("all(abs(x - a) > SAME for a, b in self.posts)", "compares one coordinate only"),
         ("not [p for p in self.posts if abs(p[1] - y) < SAME]", "compares one coordinate only"),
+        ("all(abs((x - a) + (y - b)) > SAME for a, b in self.posts)", "cancel each other"),
     ],
 )
 def test_coordinates_that_are_compared_each_for_itself(test, words):
@@ -117,9 +118,9 @@ def test_a_number_of_one_picture_that_is_published(counted, told):
     assert said == ["one picture"] * told
 
 
-def test_posts_that_are_told_apart_by_how_many_are_known():
-    body = "if len(self.posts) < len(self.seen):\n            self.posts.append((x, y))"
-    ((about, said),) = found(body=body)
+@pytest.mark.parametrize("test", ["len(self.posts) < len(self.seen)", "x and len(self.seen) > len(self.posts)"])
+def test_posts_that_are_told_apart_by_how_many_are_known(test):
+    ((about, said),) = found(body=f"if {test}:\n            self.posts.append((x, y))")
     assert about == "same" and "decides by how many posts are known" in said
 
 
