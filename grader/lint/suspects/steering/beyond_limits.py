@@ -55,6 +55,25 @@ def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
         yield line, "limit", said
 
 
+def limited_on_one_side(tree: ast.Module) -> Iterator[Suspect]:
+    """Find `if turning > 1.5: turning = 1.5` without the other side."""
+    if "angular.z" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+        return
+    known, text = named_numbers(tree), ast.unparse(tree)
+    for node in walk(tree):
+        match node:
+            case ast.If(
+                test=ast.Compare(left=left, ops=[ast.Gt() | ast.GtE()], comparators=[limit]),
+                body=[ast.Assign(targets=[target], value=value)],
+            ) if ast.unparse(left) == ast.unparse(target) and ast.unparse(limit) == ast.unparse(value):
+                name = re.escape(ast.unparse(left))
+                other = re.search(rf"{name} <|> {name}\b|abs\({name}\) [<>]", text)
+                other = other or re.search(rf"(max|min|clip|clamp|limit\w*|saturate)\([^\n)]*\b{name}\b", text)
+                if number(limit, known) == LIMIT and not other:
+                    said = f"if {ast.unparse(node.test)[:50]} limits it on one side only, and it may be below"
+                    yield node.lineno, "limit", f"{said} -{ast.unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
+
+
 def _sent(tree: ast.Module, name: str) -> Iterator[tuple[ast.expr, ast.expr, ast.FunctionDef]]:
     """Yield what is assigned to a part of a command: target, value and function."""
     for function in functions(tree):
@@ -314,4 +333,4 @@ def _chosen(small: bool, one: Speed, other: Speed) -> Speed:
     return FREE
 
 
-LOOKS = (rates_beyond, speeds_beyond)
+LOOKS = (rates_beyond, limited_on_one_side, speeds_beyond)

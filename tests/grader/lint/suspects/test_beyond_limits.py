@@ -52,7 +52,7 @@ def found(about, **changed):
         "turning = near + turned\n        turning = saturate(turning, MOST)\n        command.angular.z = turning",
         "turning = 0.4 * near + 0.5 * turned\n        command.angular.z = sign * turning",
         "turning = near + turned\n        if turning > MOST:\n            turning = MOST\n"
-        "        command.angular.z = turning",
+        "        elif turning < -MOST:\n            turning = -MOST\n        command.angular.z = turning",
         "self.last.append(near)\n        command.angular.z = sum(self.last) / len(self.last)",
         "command.angular.z = near * max(0.1, cos(away))",
         "self.send(saturate(near + turned, MOST))",
@@ -72,6 +72,11 @@ def test_right_rates(turning):
         ("command.angular.z = 2.0 * (away + nearest)", "is not limited at all"),
         ("command.angular.z = min(MOST, 2.0 * (away + nearest))", "limits it from above only"),
         ("command.angular.z = near if away > 0 else 2.2", "may be up to 2.20 rad/s"),
+        (
+            "turning = near + turned\n        if turning > MOST:\n            turning = MOST\n"
+            "        command.angular.z = turning",
+            "limits it on one side only",
+        ),
         ("self.send(near + turned)", "adds two terms that are limited each"),
     ],
 )
