@@ -251,17 +251,19 @@ def other_count(recording, number, when):
     before = came <= when
     if not before.any():
         return ""
-    same = Counter(stamps[before].tolist())
-    if number == max(same.values()) < red:
-        return "that is how many were in one picture: they must be remembered over the whole turn"
+    together = max(Counter(stamps[before].tolist()).values())
+    if number == together < red and (why := suspect(recording, "one picture")):
+        return f"that is how many were in one picture: {why}"
     x, y, yaw = (each[before] for each in CHECKS.pose(recording, stamps))
     here = CHECKS.placed((x, y, yaw), points[before, 0], points[before, 1]) - (x[0], y[0])
     turned = [*turned_otherwise(recording, when)] if number > red + 2 else []  # so many are hardly a coincidence
     if said := the_only_one(number, turned):
         return said
-    if said := the_only_one(number, [*turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]):
+    picture = "that is how many were in one picture: they must be remembered over the whole turn"
+    ways = [(picture, together), *turned_otherwise(recording, when), *ways_to_count(here, points[before], yaw)]
+    if said := the_only_one(number, ways):
         return said
-    if number == len(names):
+    if number == len(names) and not after_another(here, number):
         return "that is the number of all posts, of every colour"
     if number > red and float(yaw[-1] - yaw[0]) > 0.9 * CHECKS.FULL_TURN and number <= 2 * red:
         return (
@@ -320,6 +322,18 @@ def ways_to_count(here, points, yaw):
         "that is the number if posts at the same distance are one: the direction counts, too",
         _distinct(distances[:, None], CHECKS.SAME_PLACE),
     )
+
+
+def after_another(here, number):
+    """Find out whether a number comes about, too, if points are compared with one known post alone."""
+    found = []
+    for which in (min, max):
+        known = [here[0]]
+        for place in here:
+            if np.linalg.norm(place - which(known, key=np.linalg.norm)) > CHECKS.SAME_PLACE:
+                known.append(place)
+        found.append(len(known))
+    return number in found
 
 
 def _distinct(places, apart, size=np.linalg.norm):

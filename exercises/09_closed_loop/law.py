@@ -10,6 +10,7 @@ NEAR = 0.35  # [m] error up to which the approach grows with the error in most p
 SETTLED = 7.0  # [s] after the start
 FEWEST = 60  # scans
 CONSTANTS = np.arange(-4.0, 4.01, 0.2)  # [rad/s]
+AGES = (3, 4, 5, 6, 8, 10, 12, 15)  # scans between a scan and the command that answers it
 WINDOWS, SHARES = (8, 12, 20, 30, 40), (0.15, 0.1, 0.07, 0.05, 0.03)  # of moving averages: scans, weight of the newest
 
 
@@ -236,9 +237,18 @@ def late(point, rates, asked, moving=True):
     if clear.sum() < FEWEST or rates[clear].var() < 1e-3:
         return ""
     now = _explained(terms[clear], rates[clear])
+    clear_at = np.flatnonzero(clear)
+    clear_at = clear_at[clear_at >= max(AGES)]
     found = [(_explained(_mean(terms, number)[clear], rates[clear]), number / 2) for number in WINDOWS]
     found += [(_explained(_weighed(terms, share)[clear], rates[clear]), 1 / share) for share in SHARES]
     best, scans = max(found)
+    passed = [(_explained(terms[clear_at - ago], rates[clear_at]), ago) for ago in AGES]
+    older, ago = max(passed)
+    if older > max(0.8, best) and 1 - older < 0.4 * (1 - now):
+        return (
+            f"angular.z answers what the lidar saw {ago} scans before, not what it sees now, so the robot turns too "
+            "late, and swings; send the rate of each scan as it comes"
+        )
     if best < 0.8 or 1 - best > 0.4 * (1 - now):
         return ""
     return (

@@ -20,6 +20,7 @@ BEHIND = 0.8 * np.pi  # [rad] bearing beyond which a point does not count as on 
 TOUCH = 0.004  # [m] between the robot and a wall
 AT_ONCE = 0.4  # [s] in which a new parameter takes effect
 APPROACHED = 5.0  # [s] in which the robot comes to its wall
+WEAVES = 0.25  # [rad/s] turns of either side beyond it count as weaving
 WIDE = 0.3  # [m] error up to which the robot makes progress along its wall
 # [m] chassis and wheels: from x, to x, from y, to y
 PARTS = ((-0.18, 0.12, -0.1, 0.1), (-0.05, 0.05, -0.14, 0.14))
@@ -122,9 +123,14 @@ def _outside(x, y, low_x, high_x, low_y, high_y):
     return np.hypot(np.maximum(np.maximum(low_x - x, x - high_x), 0), np.maximum(np.maximum(low_y - y, y - high_y), 0))
 
 
+def misconceptions():
+    """Return the functions of the other file, which need much of what this one needs seldom."""
+    return runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))
+
+
 def _finding(run, passed, expected, measured, at=None):
     """Return a finding; one that failed asks which misconception fits."""
-    why = "" if passed else runpy.run_path(str(Path(__file__).with_name("misconceptions.py")))["explain"](run)
+    why = "" if passed else misconceptions()["explain"](run)
     return Finding(bool(passed), expected, measured, None if at is None else round(float(at), 2), explanation=why)
 
 
@@ -185,8 +191,17 @@ def _slow(run):
         suspect(run.recording, "divided")
         or DRIVING["silent"](run, times)
         or DRIVING["backwards"](run)
+        or _late(run)
         or DRIVING["slow"](run)
     )
+
+
+def _late(run):
+    """Return why a robot that weaves is slow, if its commands come late; empty if not."""
+    if count_swings(run.turning, WEAVES) < max(6, np.abs(run.along).sum()):
+        return ""
+    why = suspect(run.recording, "delay") or misconceptions()["late"](run)
+    return f"the robot weaves, which makes it slow: {why}" if why else ""
 
 
 def touches_nothing(recording, parameters):
@@ -214,17 +229,26 @@ def keeps_limits(recording, parameters):
             )
             seen = f"{said}; the worst was {worst:.2f} {unit}"
             old = name == "linear/x" and not ((signal.values > high + 1e-3) | (signal.values < low - 1e-3)).any()
-            stale = suspect(recording, "parameter speed_limit", "seldom speed_limit", "parameter")
-            why = (
-                f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at "
-                f"{run.limits.times[-1] / 1e9:g} s, and linear.x still goes up to {worst:.2f} m/s: "
-                f"{stale or 'the old limit still counts'}"
-                if old
-                else (too_fast(run, worst) if name == "linear/x" else suspect(recording, "limit"))
-                or limits_missed(name.replace("/", "."), signal.values, low, high)
-            )
+            if old:
+                why = old_limit(run, signal, float(worst))
+            else:
+                why = too_fast(run, worst) if name == "linear/x" else suspect(recording, "limit")
+            why = why or limits_missed(name.replace("/", "."), signal.values, low, high)
             return Finding(False, expected, seen, round(float(at), 2), explanation=why)
     return Finding(True, expected, "every command was")
+
+
+def old_limit(run, signal, worst):
+    """Return why linear.x still goes up to `worst` [m/s] after speed_limit was set to less."""
+    changed = run.limits.times[-1]
+    before = signal.values[signal.times < changed]
+    why = suspect(run.recording, "parameter speed_limit", "seldom speed_limit", "parameter", "speed limit")
+    if not why and len(before) and worst > 0.95 * before.max():
+        why = "the old limit still counts"
+    return (
+        f"speed_limit was set from {run.limit:g} to {run.limits.values[-1]:g} m/s at {changed / 1e9:g} s, and linear.x "
+        f"still goes up to {worst:.2f} m/s: {why or 'the new limit is not that of all that is sent'}"
+    )
 
 
 def too_fast(run, worst):
@@ -248,6 +272,9 @@ def limits_missed(name, values, low, high):
     worst = float(np.abs(values).max())
     if np.mean(np.abs(np.abs(values) - worst) < 1e-3) > 0.1:
         return f"{name} is limited to {worst:.2f}, but {high:g} is the limit"
+    for bound, other, within in ((high, low, values.max() <= high + 1e-3), (low, high, values.min() >= low - 1e-3)):
+        if low < 0 and within and (np.abs(values - bound) < 1e-3).sum() > 2:
+            return f"{name} is limited at {bound:g}, but not at {other:g} on the other side"
     return f"{name} is not limited, or something is added to it after that"
 
 

@@ -56,6 +56,13 @@ CONTROLLERS = {
 }
 
 
+def test_commands_that_answer_earlier_scans_are_late(seen):
+    point, asked = law(seen)
+    error, away = errors(point, asked)
+    rates = np.roll(np.clip(2 * error + away, -1.5, 1.5), 8)
+    assert "saw 8 scans before" in LAW["late"](point, rates, asked)
+
+
 @pytest.mark.parametrize("words", CONTROLLERS)
 def test_what_the_commands_follow_is_named(seen, words):
     times, bearings, ranges = seen
@@ -97,6 +104,11 @@ def test_few_scans_say_nothing(seen):
 )
 def test_commands_beyond_their_limits_are_described(values, words):
     assert words in WALL["limits_missed"]("linear.x", np.array(values), 0.0, 0.5)
+
+
+def test_a_limit_on_one_side_is_described():
+    values = np.array([*np.linspace(-3, 1, 90), 1.5, 1.5, 1.5])
+    assert "limited at 1.5, but not at -1.5" in WALL["limits_missed"]("angular.z", values, -1.5, 1.5)
 
 
 def law(seen):

@@ -61,6 +61,7 @@ from gz_course.grader.lint.suspects.sensing import (
     turned_angles,
 )
 from gz_course.grader.lint.suspects.steering import (
+    beyond_limits,
     drives,
     error_arithmetic,
     feedback,
@@ -121,6 +122,7 @@ LOOKS = (
     *forgetting.LOOKS,
     *straight_goals.LOOKS,
     *speed_limits.LOOKS,
+    *beyond_limits.LOOKS,
     *nearest_searches.LOOKS,
     *flags.LOOKS,
     *ray_parts.LOOKS,

@@ -64,6 +64,54 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     return False
 
 
+def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is compared with the known one nearest to the robot, not with the one nearest to it."""
+    for function, call, name in kept(tree):
+        loops = [node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)]
+        if any(name in ast.unparse(loop.iter) for loop in loops):
+            continue
+        for chosen in _calls(function, {"min", "sorted"}):
+            keys = [each.value for each in chosen.keywords if each.arg == "key"]
+            differs = any(isinstance(node, ast.Sub) for key in keys for node in walk(key))
+            own = keys and (
+                differs or not isinstance(keys[0], ast.Lambda) or called(keys[0]) - {"hypot", "norm", "sqrt"}
+            )
+            of = ast.unparse(chosen.args[0]) if chosen.args else ""
+            if of == name and keys and not own and chosen.lineno <= call.lineno:
+                yield (
+                    chosen.lineno,
+                    "same",
+                    f"{ast.unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared "
+                    f"with that one only: compare it with all of {name}",
+                )
+
+
+def by_number(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is new if few are known, where nothing compares it with those that are."""
+    adding = {function.name for function, _, _ in kept(tree)}
+    for function, call, name in kept(tree):
+        compared = _goes_through(tree, function, name)
+        inner = {id(node) for node in walk(function)}
+        for node in walk(tree):
+            if not isinstance(node, ast.If):
+                continue
+            tests = [each for each in walk(node.test) if isinstance(each, ast.Compare)]
+            sides = [{ast.unparse(each.left), *map(ast.unparse, each.comparators)} for each in tests]
+            if not any(
+                f"len({name})" in each and any("len(" in side for side in each - {f"len({name})"}) for each in sides
+            ):
+                continue  # a limit of how many there may be is none of that
+            done = walk(ast.Module(node.body, []))
+            calls_it = any(isinstance(each, ast.Call) and last_name(each.func) in adding for each in done)
+            if (any(each is call for each in done) and not compared) or (calls_it and id(node) not in inner):
+                yield (
+                    node.lineno,
+                    "same",
+                    f"{ast.unparse(node.test)[:60]} decides by how many posts are known whether one is new: a post is "
+                    f"new if its place is far from all places in {name}",
+                )
+
+
 def rounded(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are the same if their rounded numbers are, or only if their numbers are equal."""
     for function, call, name in kept(tree):
@@ -181,4 +229,4 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
         )
 
 
-LOOKS = (only_one_compared, rounded, one_is_far, near_all, unturned)
+LOOKS = (only_one_compared, nearest_one_compared, by_number, rounded, one_is_far, near_all, unturned)

@@ -1,4 +1,4 @@
-"""Suspects in the rule by which two points are the same thing: one coordinate, each for itself, or a wrong limit."""
+"""Suspects in the rule by which two points are the same thing: one coordinate, a distance alone, or a wrong limit."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from gz_course.grader.lint.suspects.sensing.known_places import kept
 from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
 DISTANCE = re.compile("hypot|dist|norm|sqrt")
+MEASURES = {"distance": ("hypot", "norm", "sqrt"), "direction": ("atan2", "arctan2", "atan", "arctan")}
 FARTHEST, NEAREST = 1.5, 0.05  # [m] limits beyond which no sensible rule for the same post is
 Loop = ast.For | ast.comprehension
 
@@ -43,6 +44,23 @@ def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
                 f"{ast.unparse(node)[:80]}: so two posts are the same as soon as their x or their y is about the same; "
                 "compare the distance between them, hypot(x - a, y - b)",
             )
+
+
+def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `abs((x - a) + (y - b))`, in which two differences may cancel each other."""
+    for function in {each.name: each for each, _, _ in kept(tree)}.values():
+        for call, name in calls(function):
+            match call.args:
+                case [ast.BinOp(op=ast.Add(), left=ast.BinOp(op=ast.Sub()), right=ast.BinOp(op=ast.Sub()))] if name in (
+                    "abs",
+                    "fabs",
+                ):
+                    yield (
+                        call.lineno,
+                        "same",
+                        f"{ast.unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
+                        "posts at other places are taken for one: compare the distance, hypot(x - a, y - b)",
+                    )
 
 
 def _off(node: ast.AST | None, far: bool) -> bool:
@@ -157,6 +175,81 @@ def emptied(tree: ast.AST) -> Iterator[Suspect]:
                 )
 
 
+def one_measure(tree: ast.AST) -> Iterator[Suspect]:
+    """Find places whose distances from the robot are compared, or whose directions, and nothing else."""
+    for function in {each.name: each for each, _, _ in kept(tree)}.values():
+        measures = {name: _measures(function, tree, name) for name in ("distance", "direction")}
+        found = [
+            (node, name)
+            for node in walk(function)
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
+            for name, known in measures.items()
+            if _is_measure(node.left, known, name) and _is_measure(node.right, known, name)
+        ]
+        if len({name for _, name in found}) != 1:
+            continue
+        node, name = found[0]
+        other = "in other directions" if name == "distance" else "farther away"
+        if _all_compared(function) == 1:
+            yield (
+                node.lineno,
+                "same",
+                f"{ast.unparse(node)[:60]} compares only the {name} of two posts as the robot sees them, so posts "
+                f"{other} with about the same {name} are taken for one: compare their places, hypot(x - a, y - b)",
+            )
+
+
+def _measures(function: ast.FunctionDef, tree: ast.AST, name: str) -> set[str]:
+    """Return the names in a function that hold a distance, or a direction, of a place."""
+    found = {ast.unparse(target) for target, value in assigned(function) if _is_measure(value, set(), name)}
+    rows = {
+        listed: call.args[0] for _, call, listed in kept(tree) if call.args and _is_measure(call.args[0], found, name)
+    }
+    for node in walk(function):
+        if isinstance(node, ast.For | ast.comprehension) and ast.unparse(node.iter) in rows:
+            found.add(ast.unparse(node.target))
+    return found
+
+
+def _is_measure(node: ast.expr, names: set[str], name: str) -> bool:
+    """Say whether an expression is a distance, or a direction, of one place from the robot."""
+    if ast.unparse(node) in names:
+        return True
+    if not isinstance(node, ast.Call) or last_name(node.func) not in MEASURES[name]:
+        return False
+    return not any(isinstance(each, ast.Sub) for each in walk(node))  # else it is between two places
+
+
+def _all_compared(function: ast.FunctionDef) -> int:
+    """Return how many comparisons with < or > a function has."""
+    return sum(
+        isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Lt | ast.LtE | ast.Gt | ast.GtE)
+        for node in walk(function)
+    )
+
+
+def of_one_picture(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a number that is published, and that is how long a list is which each picture makes anew."""
+    spoken = {ast.unparse(each.value) for each in walk(tree) if isinstance(each, ast.keyword) and each.arg == "data"}
+    spoken |= {ast.unparse(value) for target, value in assigned(tree) if ast.unparse(target).endswith(".data")}
+    for function in functions(tree):
+        if function.name == "__init__":
+            continue
+        made = {
+            ast.unparse(target) for target, value in assigned(function) if isinstance(value, ast.List | ast.ListComp)
+        }
+        for target, value in assigned(function):
+            of = [call for call, name in calls(value) if name == "len" and call.args]
+            name = ast.unparse(target)
+            if name in spoken and name.startswith("self.") and of and ast.unparse(of[0].args[0]) in made:
+                yield (
+                    value.lineno,
+                    "one picture",
+                    f"{name} = {ast.unparse(value)[:50]} counts {ast.unparse(of[0].args[0])}, which begins empty in "
+                    "each picture: count the posts of the whole turn",
+                )
+
+
 def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
     """Find the smallest of known places by their first number, in place of their distance."""
     names = {name for _, _, name in kept(tree)}
@@ -173,4 +266,13 @@ def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
-LOOKS = (smallest_x, each_coordinate, one_coordinate, wrong_limits, emptied)
+LOOKS = (
+    smallest_x,
+    each_coordinate,
+    cancelling_differences,
+    one_coordinate,
+    one_measure,
+    wrong_limits,
+    emptied,
+    of_one_picture,
+)

@@ -36,11 +36,33 @@ POPPED = "self.last.append(nearest)\n        if len(self.last) > 30:\n          
         ("self.smooth = 0.5 * self.smooth + 0.5 * nearest\n        distance = self.smooth", 1, ""),
         ("self.smooth += 0.04 * (nearest - self.smooth)\n        distance = self.smooth", 1, "comes late"),
         ("self.smooth += 0.04 * nearest\n        distance = self.smooth", 1, ""),
+        ("self.smooth += (nearest - self.smooth) / 20\n        distance = self.smooth", 1, "comes late"),
+        ("self.smooth = self.smooth + 0.05 * (nearest - self.smooth)\n        distance = self.smooth", 1, "comes late"),
+        ("self.smooth = (19 * self.smooth + nearest) / 20\n        distance = self.smooth", 1, "comes late"),
+        ("self.smooth = (self.smooth + nearest) / 2\n        distance = self.smooth", 1, ""),
+        ("distance = 0.9 * self.smooth + 0.1 * nearest\n        self.smooth = distance", 1, "comes late"),
+        ("self.kept = (self.kept + [nearest])[-12:]\n        distance = np.mean(self.kept)", 1, "of the last 12"),
+        ("self.last.append(nearest)\n        distance = np.mean([r for r in self.last])", 12, "of the last 12"),
+        ("self.last.append(nearest)\n        distance = self.last[0]", 12, "the oldest of 12 values"),
+        ("self.last.append(nearest)\n        distance = self.last[-1]", 12, ""),
+        (
+            "self.last.append(nearest)\n        distance = self.last.popleft() if len(self.last) > 8 else 1.0",
+            1,
+            "the oldest of 8 values",
+        ),
+        (POPPED[:-8].replace("self.last.pop(0)", "distance = self.last.pop(0)"), 1, "the oldest of 30 values"),
     ],
 )
 def test_averages_over_time(body, kept, words):
     said = [each["said"] for each in suspects(FILE.format(body=body, kept=kept).encode()) if each["about"] == "delay"]
     assert len(said) == bool(words) and all(words in each for each in said), said
+
+
+def test_an_average_of_the_parameter_is_no_delay_of_the_lidar():
+    body = "wanted = self.get_parameter('distance').value\n        self.smooth += 0.04 * (wanted - self.smooth)"
+    found = suspects(FILE.format(body=f"{body}\n        distance = nearest - self.smooth", kept=1).encode())
+    said = {each["about"]: each["said"] for each in found}
+    assert "delay" not in said and "take effect over many scans" in said["seldom distance"]
 
 
 @pytest.mark.parametrize(
