@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.lint.launch_files.unread import OF_EVERY_NODE, declared_parameters
-from gz_course.grader.lint.syntax import walk
+from gz_course.grader.lint.syntax import last_name, walk
 
 PARAMETER = ("-p", "--param")
 RULE = ("-r", "--remap")
@@ -25,10 +25,7 @@ DEEPEST = 5  # lists in lists that are followed
 
 def without_ros_args(file: LaunchFile) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in a command whose words are all known, none of them --ros-args."""
-    owners = _functions_of(file)
-    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
-        given = argument(call, "cmd", 0)
-        words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
+    for words in _commands(file):
         if None in words or any("--ros-args" in text(each) for word in words if word for each in walk(word)):
             continue
         for before, word in pairwise(word for word in words if word is not None):
@@ -41,6 +38,30 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
                     "belong to the program, and ROS does not read them",
                 )
                 break
+
+
+def before_ros_args(file: LaunchFile) -> Iterator[Place]:
+    """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in front of the `--ros-args` of the same command, or behind its `--`."""
+    for words in _commands(file):
+        marks = [number for number, word in enumerate(words) if word is not None and text(word) == "--ros-args"]
+        if len(marks) != 1:
+            continue
+        ends = (n for n, word in enumerate(words) if n > marks[0] and word is not None and text(word) == "--")
+        end = next(ends, len(words))
+        for number, (before, word) in enumerate(pairwise(words)):
+            if marks[0] < number < end or before is None or word is None or text(before) not in PARAMETER + RULE:
+                continue
+            said = "".join(text(each) for each in walk(word))
+            if ":=" not in said:
+                continue
+            option = f"{text(before)} {said if text(word) else ast.unparse(word)}"
+            which = "before --ros-args" if number < marks[0] else "behind the -- that ends the words after --ros-args"
+            yield (
+                word.lineno,
+                f"{option} stands {which}, where it belongs to the program and ROS does not read it: --ros-args comes "
+                "first, then each -p and -r",
+            )
+            break
 
 
 def values_apart(file: LaunchFile) -> Iterator[Place]:
@@ -125,6 +146,16 @@ def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
                 )
 
 
+def _commands(file: LaunchFile) -> Iterator[list[ast.expr | None]]:
+    """Yield the words of each command, and the arguments of each node; launch adds its --ros-args behind those."""
+    owners = _functions_of(file)
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "LifecycleNode"):
+        of_a_node = last_name(call.func).endswith("Node")
+        given = argument(call, "arguments") if of_a_node else argument(call, "cmd", 0)
+        if given is not None:
+            yield list(_words(file, given, owners.get(id(call), file.tree), DEEPEST))
+
+
 def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:
     """Return the innermost function around each call."""
     found: dict[int, ast.AST] = {}
@@ -166,4 +197,4 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
 
 
-LOOKS = (without_ros_args, values_apart, nested_parameters, quoted_truths, quotes_in_words)
+LOOKS = (without_ros_args, before_ros_args, values_apart, nested_parameters, quoted_truths, quotes_in_words)

@@ -33,6 +33,24 @@ def test_parameters_without_ros_args(command, found):
     assert any("--ros-args is missing before" in each["said"] for each in slips) == found
 
 
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ('command = ["python3", "a.py", *parameters, "--ros-args", *names]', "-p f'gap:={GAP}' stands before --ros-args"),
+        ('command = ["python3", "a.py"] + names + ["--ros-args"] + parameters', "-r f'__ns:=/robot{number}' stands before"),
+        ('command = ["python3", "a.py", "--ros-args", *names, "--", "-p", "gap:=1.2"]', "stands behind the --"),
+        ('return Node(package="a", executable="b", arguments=["-p", "gap:=1.2", "--ros-args", *names])', "-p gap:=1.2 stands before"),
+        ('return Node(package="a", executable="b", arguments=["-p", "gap:=1.2"])', "--ros-args is missing before -p gap:=1.2"),
+        ('return Node(package="a", executable="b", arguments=["--ros-args", "-p", "gap:=1.2"])', ""),
+        ('command = ["python3", "a.py", "--ros-args", *names, *parameters, "--"]', ""),
+    ],
+)
+def test_parameters_on_the_wrong_side_of_ros_args(command, words):
+    slips = launch_places(LAUNCH.replace("COMMAND", command).encode())["launch_slips"]
+    found = [each["said"] for each in slips if "--ros-args" in each["said"]]
+    assert bool(found) == bool(words) and words in " ".join(found)
+
+
 def test_a_parameter_that_the_program_does_not_declare():
     command = 'command = ["python3", "a.py", "--ros-args", *names, *parameters]'
 
