@@ -44,7 +44,7 @@ def _end(node: ast.AST) -> str:
         return ""
     owner = ast.unparse(node.func).rpartition(".")[0]
     name = last_name(node.func)
-    if name in EXITS and owner in ("", "sys", "os") or name in SHUTS and (owner == "rclpy" or "context" in owner):
+    if (name in EXITS and owner in ("", "sys", "os")) or (name in SHUTS and (owner == "rclpy" or "context" in owner)):
         return ast.unparse(node)
     return ast.unparse(node) if name in SHUTS and "executor" in owner else ""
 
@@ -80,4 +80,3 @@ def _leaves(part: ast.AST) -> Iterator[ast.Break | ast.Return | ast.Raise]:
 def _is_last(function: ast.FunctionDef, call: ast.Call) -> bool:
     """Return whether nothing spins after a call, in the function."""
     return not any(name in SPINS and each.lineno > call.lineno for each, name in calls(function))
-

@@ -55,9 +55,7 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-def _whole_arrays(
-    values: Mapping[str, list[ast.expr]], names: Mapping[str, Number]
-) -> dict[str, ast.expr | None]:
+def _whole_arrays(values: Mapping[str, list[ast.expr]], names: Mapping[str, Number]) -> dict[str, ast.expr | None]:
     """Return what makes each array of whole numbers; None for a name that stands for something else, too."""
     found: dict[str, ast.expr | None] = {}
     for _ in range(3):  # arrays like arrays

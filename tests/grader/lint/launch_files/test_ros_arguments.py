@@ -36,11 +36,23 @@ def test_parameters_without_ros_args(command, found):
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        ('command = ["python3", "a.py", *parameters, "--ros-args", *names]', "-p f'gap:={GAP}' stands before --ros-args"),
-        ('command = ["python3", "a.py"] + names + ["--ros-args"] + parameters', "-r f'__ns:=/robot{number}' stands before"),
+        (
+            'command = ["python3", "a.py", *parameters, "--ros-args", *names]',
+            "-p f'gap:={GAP}' stands before --ros-args",
+        ),
+        (
+            'command = ["python3", "a.py"] + names + ["--ros-args"] + parameters',
+            "-r f'__ns:=/robot{number}' stands before",
+        ),
         ('command = ["python3", "a.py", "--ros-args", *names, "--", "-p", "gap:=1.2"]', "stands behind the --"),
-        ('return Node(package="a", executable="b", arguments=["-p", "gap:=1.2", "--ros-args", *names])', "-p gap:=1.2 stands before"),
-        ('return Node(package="a", executable="b", arguments=["-p", "gap:=1.2"])', "--ros-args is missing before -p gap:=1.2"),
+        (
+            'return Node(package="a", executable="b", arguments=["-p", "gap:=1.2", "--ros-args", *names])',
+            "-p gap:=1.2 stands before",
+        ),
+        (
+            'return Node(package="a", executable="b", arguments=["-p", "gap:=1.2"])',
+            "--ros-args is missing before -p gap:=1.2",
+        ),
         ('return Node(package="a", executable="b", arguments=["--ros-args", "-p", "gap:=1.2"])', ""),
         ('command = ["python3", "a.py", "--ros-args", *names, *parameters, "--"]', ""),
     ],
