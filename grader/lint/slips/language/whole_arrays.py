@@ -1,6 +1,7 @@
 """Fractions that are added to the numbers of an array of whole numbers: NumPy cuts them off and says nothing.
 
-`a += 0.4` of a whole array raises an error; `a[i] += 0.4` does not: the sum is converted when it is stored.
+`a[i, j] += 0.4` and `a[cells] = a[cells] + 0.4` convert the sum when it is stored. `a[cells] += 0.4`, of several cells,
+raises an error, as `a += 0.4` does.
 
 Source: https://numpy.org/doc/stable/user/basics.indexing.html, assigning values to indexed arrays
 """
@@ -49,7 +50,7 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
                 yield (
                     node.lineno,
                     f"{name} is an array of whole numbers (line {made.lineno}: `{ast.unparse(made)[:60]}`), so "
-                    f"`{ast.unparse(node)[:60]}` loses the fraction of {step:g} without an error"
+                    f"`{ast.unparse(node)[:60]}` cannot keep the fraction of {step:g}"
                     f"{', and 0 stays 0' if abs(step) < 1 else ''}: make the array with dtype=float",
                 )
                 return

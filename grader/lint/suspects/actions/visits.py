@@ -93,20 +93,22 @@ def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
     for loop in (each for each in walk(tree) if isinstance(each, Loop)):
         ended: _End | None = None
         for statement in loop.body:
-            if ended is None:
-                ended = _ended_by_a_cancellation(statement, own)
+            if (found := _ended_by_a_cancellation(statement, own)) is not None or ended is None:
+                ended = found
                 continue
             asks = {CANCELLED, *ended.flags} & set(re.findall(r"\w+", ast.unparse(statement)))
             if asks or (left_early(statement) and not isinstance(statement, Loop)):
                 break
             counted = next((t for t, _ in assigned(statement) if ast.unparse(t) in names), None)
             if counted is not None and isinstance(statement, ast.Assign | ast.AugAssign):
+                leaves = any(left_early(each) for each in loop.body if not isinstance(each, Loop))
+                then = "" if leaves else f", and the loop of line {loop.lineno} goes on to the next one"
                 yield (
                     ended.line,
                     "counted",
                     f"{ended.what} when the goal is cancelled; then line {statement.lineno}, "
-                    f"`{ast.unparse(statement)}`, counts the waypoint all the same, and the loop of line {loop.lineno} "
-                    "goes on to the next one: ask for is_cancel_requested before that line, too",
+                    f"`{ast.unparse(statement)}`, counts the waypoint all the same{then}: ask for is_cancel_requested "
+                    "before that line, too",
                 )
                 break
 
