@@ -68,7 +68,7 @@ def stands(recording):
     if not np.abs(ahead).max() > 0.01:
         said = suspect(recording, "sleep", "pose", "counter", "sign", "cell", "heading", "angle", "ray")
         return still or said or f"linear.x was 0 in every command{never}"
-    return suspect(recording, "pose")
+    return suspect(recording, "pose", "way")
 
 
 def backwards(recording):

@@ -29,8 +29,9 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
         return
     given = _given(tree)
     for function in functions(tree):
-        local = set_to(function)
+        local, parameters = set_to(function), {each.arg for each in function.args.args}
         for node in walk(function):
+            target: ast.expr
             if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add | ast.Sub):
                 target, added = node.target, [node.value]
             elif isinstance(node, ast.Assign) and len(node.targets) == 1:
@@ -38,7 +39,7 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
             else:
                 continue
             name = _array(target)
-            if name not in arrays or not isinstance(target, ast.Subscript):
+            if name not in arrays or (name not in local and name in parameters):
                 continue
             old = {name, *(own for own, made in local.items() if any(_array(each) == name for each in made))}
             if isinstance(node, ast.Assign):

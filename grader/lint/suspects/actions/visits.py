@@ -126,12 +126,10 @@ def _ended_by_a_cancellation(statement: ast.stmt, own: Mapping[str, ast.Function
     """Return what ends a loop, or a function of the file whose result is dropped, when a goal is cancelled."""
     if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
         function = own.get(last_name(statement.value.func))
-        for inner in (each for each in walk(function) if isinstance(each, ast.While)) if function else ():
-            if CANCELLED in ast.unparse(inner):
-                sets = frozenset(
-                    last_name(target) for target, _ in assigned(function) if isinstance(target, ast.Attribute)
-                )
-                return _End(statement.lineno, f"{function.name}() returns", sets)
+        loops = [each for each in walk(function) if isinstance(each, ast.While)] if function is not None else []
+        if function is not None and any(CANCELLED in ast.unparse(each) for each in loops):
+            sets = (last_name(target) for target, _ in assigned(function) if isinstance(target, ast.Attribute))
+            return _End(statement.lineno, f"{function.name}() returns", frozenset(sets))
     if not isinstance(statement, ast.While | ast.For) or statement.orelse:
         return None
     if isinstance(statement, ast.While) and CANCELLED in ast.unparse(statement.test):
