@@ -19,6 +19,7 @@ from gz_course.grader.lint.syntax import last_name, walk
 PARAMETER = ("-p", "--param")
 RULE = ("-r", "--remap")
 QUOTED = re.compile(r"(\w+):=(['\"])([Tt]rue|[Ff]alse)\2")
+OF_A_NODE = re.compile(r"(?:\s*#.*\n|\s*\n)*/?(\w+):\s*\n\s+ros__parameters:")
 GROWS = ("append", "extend", "insert")
 DEEPEST = 5  # lists in lists that are followed
 
@@ -148,12 +149,35 @@ def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
 
 def _commands(file: LaunchFile) -> Iterator[list[ast.expr | None]]:
     """Yield the words of each command, and the arguments of each node; launch adds its --ros-args behind those."""
-    owners = _functions_of(file)
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "LifecycleNode"):
-        of_a_node = last_name(call.func).endswith("Node")
-        given = argument(call, "arguments") if of_a_node else argument(call, "cmd", 0)
-        if given is not None:
-            yield list(_words(file, given, owners.get(id(call), file.tree), DEEPEST))
+        if words := command_words(file, call):
+            yield words
+
+
+def command_words(file: LaunchFile, call: ast.Call) -> list[ast.expr | None]:
+    """Return the words of a command, or the arguments of a node, in their order; None for each that is not known."""
+    given = argument(call, "arguments") if last_name(call.func).endswith("Node") else argument(call, "cmd", 0)
+    if given is None:
+        return []
+    return list(_words(file, given, _functions_of(file).get(id(call), file.tree), DEEPEST))
+
+
+def files_without_namespace(file: LaunchFile, others: Mapping[str, bytes]) -> Iterator[Place]:
+    """Find a parameter file for a node `follower` in a command that puts the node into a namespace."""
+    for words in _commands(file):
+        said = {text(each) for word in words if word is not None for each in walk(word)} - {""}
+        if "--params-file" not in said or not any("__ns:=" in each for each in said):
+            continue
+        line = next(word.lineno for word in words if word is not None)
+        for name in sorted({each.rpartition("/")[2] for each in said} & others.keys()):
+            owner = OF_A_NODE.match(others[name].decode(errors="replace"))
+            if owner:
+                yield (
+                    line,
+                    f"{name} holds parameters of the node /{owner[1]}, and this command puts its node into a "
+                    f"namespace (__ns), so it is another node and reads none of them: begin the file with /**: instead "
+                    f"of {owner[1]}:, which means every node",
+                )
 
 
 def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:

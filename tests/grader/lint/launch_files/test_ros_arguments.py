@@ -126,3 +126,27 @@ def test_quotes_that_no_shell_takes_away(word, shell, found):
     )
     slips = launch_places(file.encode())["launch_slips"]
     assert any("write use_sim_time:=true" in each["said"] for each in slips) == found
+
+
+@pytest.mark.parametrize(
+    ("owner", "found"), [("follower", True), ("/follower", True), ("/**", False), ("/robot2/follower", False)]
+)
+def test_a_parameter_file_for_a_node_without_its_namespace(owner, found):
+    command = 'command = ["python3", "a.py", "--ros-args", *names, "--params-file", str(HERE / "a.yaml")]'
+    content = f"# of all\n{owner}:\n  ros__parameters:\n    gap: 1.2\n".encode()
+    slips = launch_places(LAUNCH.replace("COMMAND", command).encode(), {"a.yaml": content})["launch_slips"]
+    assert any("holds parameters of the node /follower" in each["said"] for each in slips) == found
+
+
+def test_simulated_time_for_a_command_whose_words_are_put_together():
+    command = 'command = ["python3", "a.py", "--ros-args", *names, *parameters]'
+    launch = (
+        LAUNCH.replace("COMMAND", command) + "LaunchDescription([SetParameter('use_sim_time', True), follower(2)])\n"
+    )
+
+    def said(source):
+        return " ".join(each["said"] for each in launch_places(source.encode())["launch_slips"])
+
+    assert "SetParameter reaches only the Node actions" in said(launch)
+    assert "SetParameter reaches only" not in said(launch.replace('["-p", f"gap', '["-p", "use_sim_time:=true", f"gap'))
+    assert "SetParameter reaches only" not in said(launch.replace("*names, ", "*names, *more, "))
