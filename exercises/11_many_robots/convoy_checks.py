@@ -12,7 +12,6 @@ from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launch_errors import launch_meaning
 from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
-from gz_course.grader.score.launched import without_sim_time
 from gz_course.grader.score.suspects import suspect
 
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
@@ -291,7 +290,7 @@ def listens_to_the_one_in_front(recording, parameters):
             measured = f"{node} publishes on {', '.join(told) or 'nothing'}"
             return Finding(False, expected, measured, explanation=why)
         if not any(e["node"] == node and e["topic"] == "/clock" for e in ends):
-            why = without_sim_time(recording, "follower_node.py")
+            why = ENDS["without_sim_time"](recording, "follower_node.py")
             measured = f"{node} has no use_sim_time: its timer runs on the computer's time"
             return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"{len(names) - 1} followers, so it was")

@@ -4,12 +4,13 @@ import re
 
 import numpy as np
 
-from gz_course.grader.score.launched import own_end
+from gz_course.grader.score.launched import own_end, without_sim_time
 from gz_course.grader.score.suspects import suspect
 
 SELDOM = 0.4  # [s] between the commands of a follower
 SILENT = 2.5  # [s] before the end of a run
 FEWEST = 8  # commands of a follower that goes on
+__all__ = ["without_sim_time"]  # for `convoy_checks.py`
 BY_OTHERS = re.compile(
     r"^\[INFO\] \[(?!gz-|gazebo-|parameter_bridge-|create-|ruby-|ros2-)([^\]]+)-\d+\]: process started"
 )
