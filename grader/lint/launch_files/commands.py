@@ -253,7 +253,9 @@ def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
     programs = []
     for call in file.calls("ExecuteProcess"):
         words = texts_of(file, call)
-        mentioned = None in command_words(file, call) or any(SIM_TIME in word for word in words)
+        mentioned = None in command_words(file, call) or any(
+            SIM_TIME in word or word == "--params-file" for word in words
+        )
         if any(word.endswith(".py") for word in words) and not mentioned:
             programs.append(call)
     for call in file.calls("SetParameter", "SetUseSimTime"):

@@ -58,4 +58,4 @@ def _unknown(file: LaunchFile, call: ast.Call) -> Iterator[bool]:
         files = given.elts if isinstance(given, ast.List | ast.Tuple) else []
         yield any(not isinstance(file.value(each), ast.Dict) for each in files)
         yield any(file.calls("SetParameter", "SetUseSimTime", "SetParametersFromFile"))
-    yield None in command_words(file, call)
+    yield None in command_words(file, call) or "--params-file" in texts_of(file, call)

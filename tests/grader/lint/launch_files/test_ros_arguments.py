@@ -150,3 +150,4 @@ def test_simulated_time_for_a_command_whose_words_are_put_together():
     assert "SetParameter reaches only the Node actions" in said(launch)
     assert "SetParameter reaches only" not in said(launch.replace('["-p", f"gap', '["-p", "use_sim_time:=true", f"gap'))
     assert "SetParameter reaches only" not in said(launch.replace("*names, ", "*names, *more, "))
+    assert "SetParameter reaches only" not in said(launch.replace("*names, ", "'--params-file', 'a.yaml', *names, "))
