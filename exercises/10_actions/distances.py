@@ -88,6 +88,7 @@ def other_feedback(run, said, points):
     yield "how far it is along y alone", np.abs(here[:, 1])
     yield "how far it is in centimetres", 100 * to(index)
     for words, whole in (("rounded to", np.round), ("cut to", np.trunc)):
+        yield f"how far it is, {words} whole metres", whole(to(index))
         place = here + way
         yield f"how far it is to its coordinates {words} whole metres", np.hypot(*(whole(place) - way).T)
         yield f"how far it is from the place of the robot, {words} whole metres", np.hypot(*(place - whole(way)).T)

@@ -243,9 +243,10 @@ def reached_early(run, goal):
     if max(near) < 0.6 and (words := DISTANCES.by_reckoning(run, goal)):
         return words
     if max(near) < 0.6:
+        why = suspect(run.recording, "squared")
         return (
             f"Your server counts a waypoint as reached too early: {max(near):.2f} m was the nearest, and 0.15 m is "
-            "asked for"
+            f"asked for{f': {why}' if why else ''}"
         )
     if near[0] < 0.2 and len(points) > 1 and np.hypot(*(way[-1] - points[0])) < 0.3:
         why = suspect(run.recording, "left_early", "left_out")

@@ -290,7 +290,9 @@ def listens_to_the_one_in_front(recording, parameters):
             measured = f"{node} publishes on {', '.join(told) or 'nothing'}"
             return Finding(False, expected, measured, explanation=why)
         if not any(e["node"] == node and e["topic"] == "/clock" for e in ends):
-            return Finding(False, expected, f"{node} has no use_sim_time: its timer runs on the computer's time")
+            why = ENDS["without_sim_time"](recording, "follower_node.py")
+            measured = f"{node} has no use_sim_time: its timer runs on the computer's time"
+            return Finding(False, expected, measured, explanation=why)
     return Finding(True, expected, f"{len(names) - 1} followers, so it was")
 
 

@@ -4,11 +4,13 @@ import re
 
 import numpy as np
 
+from gz_course.grader.score.launched import own_end, without_sim_time
 from gz_course.grader.score.suspects import suspect
 
 SELDOM = 0.4  # [s] between the commands of a follower
 SILENT = 2.5  # [s] before the end of a run
 FEWEST = 8  # commands of a follower that goes on
+__all__ = ["without_sim_time"]  # for `convoy_checks.py`
 BY_OTHERS = re.compile(
     r"^\[INFO\] \[(?!gz-|gazebo-|parameter_bridge-|create-|ruby-|ros2-)([^\]]+)-\d+\]: process started"
 )
@@ -44,6 +46,12 @@ def unheard(ends, name, front):
     return ""
 
 
+def ended_by_itself(recording):
+    """Return which line of a program of the submission has ended it without an error; empty if none is known."""
+    ended = recording.facts().get("launch", {}).get("ended_early", [])
+    return next(filter(None, (own_end(recording, each["program"]) for each in ended if not each["code"])), "")
+
+
 def few(recording, name):
     """Return that a follower stopped sending commands after the first; empty if it did not."""
     times = recording.signal(f"topics/{name}/cmd_vel/linear/x").times / 1e9
@@ -53,7 +61,9 @@ def few(recording, name):
     if not len(times) or (len(times) >= FEWEST and not silent):
         return ""
     last = f"its last command comes at {times[-1]:.1f} s"
-    if silent and (said := suspect(recording, "silenced")):
+    if silent and (said := ended_by_itself(recording)):
+        last += f", because its process has ended by itself: {said}"
+    elif silent and (said := suspect(recording, "silenced")):
         last += f": {said}"
     return f"its node publishes {len(times)} command{'s' if len(times) > 1 else ''} only, and {last}"
 

@@ -197,7 +197,7 @@ def all_alive(recording, parameters):
         measured = f"{dead[0].process} ended with exit code {dead[0].code}{dead[0].words}"
         return Finding(False, expected, measured, explanation=dead[0].why)
     if ended:
-        return Finding(False, expected, f"{ended[0]['program']} had ended with exit code {ended[0]['code']}")
+        return NAMES["ended_by_itself"](recording, ended[0], expected)
     if not _ends(recording, "publisher", topic=COMMANDS):
         others = [each for each in _ends(recording, "publisher") if "Twist" in each["type"].rpartition("/")[2]]
         if others:

@@ -1,5 +1,7 @@
-"""Why the two ends of the distance have different names; `checks.py` hands over the ends and the remappings."""
+"""Why the two ends of the distance have different names, and what has ended a program; used by `checks.py`."""
 
+from gz_course.grader.score.check import Finding
+from gz_course.grader.score.launched import own_end
 from gz_course.sim.did_you_mean import nearest_name
 
 
@@ -51,3 +53,10 @@ def of_a_node(ends, topics):
                     "put into it"
                 )
     return ""
+
+
+def ended_by_itself(recording, ended, expected):
+    """Return the finding about a program that ended without an error, with the line that ends it if one is known."""
+    why = "" if ended["code"] else own_end(recording, ended["program"])
+    measured = f"{ended['program']} had ended with exit code {ended['code']}"
+    return Finding(False, expected, measured, explanation=why)

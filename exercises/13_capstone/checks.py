@@ -31,9 +31,9 @@ LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
 MOVED = 0.3  # [m]
 MARGIN = 0.003  # [m] between the robot and what it does not touch
 MAP = "topics/map"
-DRIVING, ARRANGED, RIVALS = (
+DRIVING, ARRANGED, RIVALS, SHOWN = (
     SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name))))
-    for name in ("driving.py", "arrangements.py", "rivals.py")
+    for name in ("driving.py", "arrangements.py", "rivals.py", "shown.py")
 )
 
 
@@ -121,7 +121,7 @@ def walls(recording, parameters):
         words = (
             DRIVING.unclear(said, wanted)
             or DRIVING.unchanged(*maps)
-            or DRIVING.suspect(recording, "threshold")
+            or DRIVING.suspect(recording, "threshold", "erased")
             or DRIVING.walls_missing(
                 said, wanted, earlier_walls(recording), DRIVING.suspect(recording, "forgets", "fades")
             )
@@ -277,21 +277,7 @@ def not_as_it_was_seen(recording, said, every):
     passed = (along(every, 0, every.ends - 2 * RESOLUTION, every.hit) >= HITS) & ~hit
     if passed.sum() < FEWEST:
         return ""
-    values = said[passed]
-    if (values >= OCCUPIED).mean() > EARLY:
-        return f"{(values >= OCCUPIED).mean():.0%} of the cells that rays passed are occupied in the map: they are free"
-    if (values < 0).mean() > TRUE and (said >= OCCUPIED).sum() >= FEWEST:
-        return "hardly any cell is free, only the hits are drawn: the cells between the robot and a hit are free"
-    if (values < 0).mean() > NEVER_SEEN and (words := DRIVING.suspect(recording, "threshold")):
-        return words
-    if (values < 0).mean() > EARLY and (said < 0).mean() > 0.999:
-        return DRIVING.suspect(recording, "forgets", "cell") or "all cells of the map are unknown"
-    if (values < 0).mean() > EARLY and (said >= OCCUPIED).sum() >= FEWEST:
-        return DRIVING.not_free(said, passed, np.zeros_like(passed))
-    between = (values > FREE) & (values < OCCUPIED)
-    if between.mean() > EARLY:
-        return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"
-    return ""
+    return SHOWN.wrongly(recording, said, passed, hit)
 
 
 def reachable(recording):

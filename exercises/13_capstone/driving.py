@@ -1,5 +1,6 @@
 """What is wrong with how a robot explored, or with what its map leaves out; `checks.py` asks for it."""
 
+import re
 import runpy
 from pathlib import Path
 from types import SimpleNamespace
@@ -67,7 +68,7 @@ def stands(recording):
     if not np.abs(ahead).max() > 0.01:
         said = suspect(recording, "sleep", "pose", "counter", "sign", "cell", "heading", "angle", "ray")
         return still or said or f"linear.x was 0 in every command{never}"
-    return suspect(recording, "pose")
+    return suspect(recording, "pose", "way")
 
 
 def backwards(recording):
@@ -201,6 +202,8 @@ def touched(recording, radius, at, place, there=""):
         return said
     if said := drives_while_turning(recording):
         return said
+    if said := without_a_way(recording, at) or suspect(recording, "left_out_walls", "far_aim"):
+        return said
     if abs(bearing) > AHEAD and (said := suspect(recording, "narrow")):
         return said
     if "does not show it" in there:
@@ -213,6 +216,13 @@ def touched(recording, radius, at, place, there=""):
             f"leaves less room than the robot's radius, {radius:g} m, or it does not keep to the cells of its way"
         )
     return f"it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time{more}"
+
+
+def without_a_way(recording, at):
+    """Return that a robot drove ahead where it had no way, if its command at a time [ns] was that one."""
+    said, signal = suspect(recording, "blind"), recording.signal("topics/cmd_vel/linear/x")
+    speed, before = re.search(r"linear\.x is ([\d.]+)", said), signal.values[signal.times <= at][-5:]
+    return said if speed and len(before) and np.any(np.abs(before - float(speed[1])) < 1e-3) else ""
 
 
 def drives_while_turning(recording):

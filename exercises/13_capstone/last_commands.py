@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from gz_course.grader.score.own_ends import ended_by_itself
+
 LONG = 1.0  # [s] without a command, in which a robot goes on by the last one
 SHARE = 0.2  # of the run without commands, that explain what was not explored
 SLOW = 0.02  # [m/s], [rad/s]
@@ -28,6 +30,8 @@ def kept(recording, touched=None):
         seconds = gaps[number]
         if gaps[gaps > LONG].sum() < SHARE * recording.end_ns / 1e9:
             return ""
+    if ended := ended_by_itself(recording, before=times[number] + LONG):
+        return f"the robot went on by the last command, because {ended}"
     return (
         f"no command came for {seconds:.1f} s after that of {times[number]:.1f} s, with linear.x "
         f"{ahead.values[number]:.2f} and angular.z {turning.values[number]:.2f}, and the robot went on by it: it keeps "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Mapping
-from math import ceil, floor
+from math import ceil, floor, log
 
 from gz_course.grader.lint.syntax import walk
 
@@ -22,6 +22,7 @@ ROUNDINGS: dict[str, Callable[[Number], Number]] = {
     "round": round,
     **{f"{owner}{name}": each for owner in ("", "math.", "np.") for name, each in (("ceil", ceil), ("floor", floor))},
 }
+LOGARITHMS = ("log", "math.log", "np.log", "numpy.log")
 LARGEST = 1e18  # no product of names is computed beyond
 
 
@@ -80,6 +81,9 @@ def number(node: ast.AST | None, names: Mapping[str, Number]) -> Number | None:
         case ast.Call(func=func, args=[inner_node], keywords=[]) if ast.unparse(func) in ROUNDINGS:
             value = number(inner_node, names)
             return None if value is None else ROUNDINGS[ast.unparse(func)](value)
+        case ast.Call(func=func, args=[inner_node], keywords=[]) if ast.unparse(func) in LOGARITHMS:
+            value = number(inner_node, names)
+            return None if value is None or value <= 0 else log(value)
         case ast.Name() | ast.Attribute():
             name = ast.unparse(node)
             return names.get(name, names.get(name.rpartition(".")[2]) if name.count(".") == 1 else None)

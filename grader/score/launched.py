@@ -82,6 +82,23 @@ def by_python(recording: Recording, program: str) -> str:
     return f"{program} was started by Python (subprocess or os.system), not by an action of the launch"
 
 
+def own_end(recording: Recording, program: str) -> str:
+    """Return which line of a program of the submission has ended it, without an error; empty if none is known."""
+    places = [each for each in recording.facts().get("own_ends", []) if each["file"] == program]
+    return shown(f"{program}, line {places[0]['line']}: {places[0]['said']}", 300) if places else ""
+
+
+def without_sim_time(recording: Recording, program: str) -> str:
+    """Return which action starts the program without use_sim_time, and which has it instead; empty if unknown."""
+    for place in recording.facts().get("programs", []):
+        if place["program"] != program or place["sim_time"]:
+            continue
+        other = place["executable"] or "another program"
+        given = f"; line {place['elsewhere']} gives it to {other}" if place["elsewhere"] else ""
+        return f"{place['file']}, line {place['line']}: the command of {program} does not hold use_sim_time{given}"
+    return ""
+
+
 def ran(recording: Recording) -> list[dict[str, Any]]:
     """Return the simulators that ran."""
     return [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]

@@ -317,3 +317,10 @@ def test_a_world_without_the_folder_of_the_launch_file():
     facts = {"launch": {"simulators": [{"ran": False, "error": error}]}}
     finding = CHECKS["time_runs"](SimpleNamespace(facts=lambda: facts, ended_s=0.0, properties=lambda name: {}), {})
     assert "it lies beside the launch file" in finding.explanation
+
+
+def test_a_program_that_ends_itself():
+    ends = [{"file": "driver_node.py", "line": 45, "said": "`raise SystemExit` in drive() ends the program"}]
+    launch = {"ended_early": [{"program": "driver_node.py", "code": 0}]}
+    recording = SimpleNamespace(facts=lambda: {"launch": launch, "own_ends": ends}, lines=lambda entity: [])
+    assert "driver_node.py, line 45: `raise SystemExit`" in CHECKS["all_alive"](recording, {}).explanation

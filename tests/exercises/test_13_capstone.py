@@ -339,3 +339,22 @@ def test_commands_that_end_although_something_is_near():
     said = DRIVING.what_it_did(recording(ahead=ahead, suspects=[near]))
     assert said == "all commands from 5 s on are 0; line 9: the nearest in any direction"
     assert "as if nothing were left" in DRIVING.what_it_did(recording(ahead=ahead))
+
+
+@pytest.mark.parametrize(("shown", "words"), [(0, "make the cells in which they end free again"), (100, ""), (-1, "")])
+def test_a_map_without_the_walls_that_were_hit(shown, words):
+    module = runpy.run_path(str(FOLDER / "shown.py"))
+    hit, passed = np.zeros((80, 100), dtype=bool), np.zeros((80, 100), dtype=bool)
+    hit[20, 20:60], passed[21:60, 20:60] = True, True
+    said = np.where(passed, 0.0, np.where(hit, shown, -1.0))
+    found = module["wrongly"](SimpleNamespace(facts=lambda: {}), said, passed, hit)
+    assert words in found if words else found == ""
+
+
+@pytest.mark.parametrize(("speed", "found"), [(0.3, True), (0.5, False)])
+def test_a_robot_that_drives_without_a_way(speed, found):
+    module = runpy.run_path(str(FOLDER / "driving.py"))
+    place = {"line": 7, "about": "blind", "said": "linear.x is 0.3 where the robot has no way"}
+    signal = SimpleNamespace(times=np.arange(5) * 10**9, values=np.full(5, speed))
+    drive = SimpleNamespace(facts=lambda: {"suspects": [place]}, signal=lambda name: signal)
+    assert bool(module["without_a_way"](drive, 3.5e9)) == found

@@ -15,6 +15,7 @@ from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
 from gz_course.grader.lint.launch_files import launch_places
 from gz_course.grader.lint.origins import before_speeds, conditions
+from gz_course.grader.lint.own_ends import own_ends
 from gz_course.grader.lint.slips import slips
 from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.printable import shown
@@ -58,6 +59,7 @@ def _places(submission: Submission, duration: float) -> dict[str, list[dict[str,
                     "suspects": suspects(content),
                     "before_speeds": before_speeds(content),
                     "conditions": conditions(content),
+                    "own_ends": own_ends(content),
                 }
             )
             for kind, each in places.items():

@@ -16,6 +16,7 @@ from gz_course.grader.lint.delays import delays
 from gz_course.grader.lint.early_publishing import early_publishing
 from gz_course.grader.lint.logs import seldom_log, silent_log
 from gz_course.grader.lint.origins import before_speeds, conditions, of_the_drive, origins
+from gz_course.grader.lint.own_ends import own_ends
 from gz_course.grader.lint.repetitions import repetitions
 from gz_course.grader.lint.rhythm import rhythm
 from gz_course.grader.lint.slips import slips
@@ -91,6 +92,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         "delays": delays(content),
         "early_publishing": early_publishing(content),
         "origins": origins(content),
+        "own_ends": own_ends(content),
         "of_the_drive": of_the_drive(content),
         "repetitions": repetitions(content),
         "lookups": lookups(content),

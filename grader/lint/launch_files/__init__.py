@@ -57,6 +57,7 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         slips = [place for look in looks for place in look(file)]
         slips += [*kept_defaults(tree), *first_iteration(tree), *namespaces.slashes_in_rules(file, nodes)]
         slips += namespaces.exchanged_rules(file, nodes)
+        slips += ros_arguments.files_without_namespace(file, nodes)
         slips += [*ros_arguments.undeclared(file, nodes), *actions.events_that_never_come(file, nodes)]
         slips += [*late_bound(tree), *missing_commas(content), *unread.undeclared_parameters(file, nodes)]
         slips += unread.for_another_program(file, nodes)

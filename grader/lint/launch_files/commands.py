@@ -10,6 +10,8 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
+from gz_course.grader.lint.launch_files.ros_arguments import command_words
+from gz_course.grader.lint.launch_files.sim_time import texts_of
 from gz_course.grader.lint.syntax import last_name, walk
 
 SIM_TIME = "use_sim_time"
@@ -250,8 +252,11 @@ def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
     """Find a SetParameter that is to reach a program which no Node starts."""
     programs = []
     for call in file.calls("ExecuteProcess"):
-        words = [text(each) for part in (*call.args, *call.keywords) for each in walk(part)]
-        if any(word.endswith(".py") for word in words) and not any(SIM_TIME in word for word in words):
+        words = texts_of(file, call)
+        mentioned = None in command_words(file, call) or any(
+            SIM_TIME in word or word == "--params-file" for word in words
+        )
+        if any(word.endswith(".py") for word in words) and not mentioned:
             programs.append(call)
     for call in file.calls("SetParameter", "SetUseSimTime"):
         if programs:

@@ -14,21 +14,19 @@ from itertools import pairwise
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.lint.launch_files.unread import OF_EVERY_NODE, declared_parameters
-from gz_course.grader.lint.syntax import walk
+from gz_course.grader.lint.syntax import last_name, walk
 
 PARAMETER = ("-p", "--param")
 RULE = ("-r", "--remap")
 QUOTED = re.compile(r"(\w+):=(['\"])([Tt]rue|[Ff]alse)\2")
+OF_A_NODE = re.compile(r"(?:\s*#.*\n|\s*\n)*/?(\w+):\s*\n\s+ros__parameters:")
 GROWS = ("append", "extend", "insert")
 DEEPEST = 5  # lists in lists that are followed
 
 
 def without_ros_args(file: LaunchFile) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in a command whose words are all known, none of them --ros-args."""
-    owners = _functions_of(file)
-    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
-        given = argument(call, "cmd", 0)
-        words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
+    for words in _commands(file):
         if None in words or any("--ros-args" in text(each) for word in words if word for each in walk(word)):
             continue
         for before, word in pairwise(word for word in words if word is not None):
@@ -41,6 +39,30 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
                     "belong to the program, and ROS does not read them",
                 )
                 break
+
+
+def before_ros_args(file: LaunchFile) -> Iterator[Place]:
+    """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in front of the `--ros-args` of the same command, or behind its `--`."""
+    for words in _commands(file):
+        marks = [number for number, word in enumerate(words) if word is not None and text(word) == "--ros-args"]
+        if len(marks) != 1:
+            continue
+        ends = (n for n, word in enumerate(words) if n > marks[0] and word is not None and text(word) == "--")
+        end = next(ends, len(words))
+        for number, (before, word) in enumerate(pairwise(words)):
+            if marks[0] < number < end or before is None or word is None or text(before) not in PARAMETER + RULE:
+                continue
+            said = "".join(text(each) for each in walk(word))
+            if ":=" not in said:
+                continue
+            option = f"{text(before)} {said if text(word) else ast.unparse(word)}"
+            which = "before --ros-args" if number < marks[0] else "behind the -- that ends the words after --ros-args"
+            yield (
+                word.lineno,
+                f"{option} stands {which}, where it belongs to the program and ROS does not read it: --ros-args comes "
+                "first, then each -p and -r",
+            )
+            break
 
 
 def values_apart(file: LaunchFile) -> Iterator[Place]:
@@ -125,6 +147,39 @@ def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
                 )
 
 
+def _commands(file: LaunchFile) -> Iterator[list[ast.expr | None]]:
+    """Yield the words of each command, and the arguments of each node; launch adds its --ros-args behind those."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "LifecycleNode"):
+        if words := command_words(file, call):
+            yield words
+
+
+def command_words(file: LaunchFile, call: ast.Call) -> list[ast.expr | None]:
+    """Return the words of a command, or the arguments of a node, in their order; None for each that is not known."""
+    given = argument(call, "arguments") if last_name(call.func).endswith("Node") else argument(call, "cmd", 0)
+    if given is None:
+        return []
+    return list(_words(file, given, _functions_of(file).get(id(call), file.tree), DEEPEST))
+
+
+def files_without_namespace(file: LaunchFile, others: Mapping[str, bytes]) -> Iterator[Place]:
+    """Find a parameter file for a node `follower` in a command that puts the node into a namespace."""
+    for words in _commands(file):
+        said = {text(each) for word in words if word is not None for each in walk(word)} - {""}
+        if "--params-file" not in said or not any("__ns:=" in each for each in said):
+            continue
+        line = next(word.lineno for word in words if word is not None)
+        for name in sorted({each.rpartition("/")[2] for each in said} & others.keys()):
+            owner = OF_A_NODE.match(others[name].decode(errors="replace"))
+            if owner:
+                yield (
+                    line,
+                    f"{name} holds parameters of the node /{owner[1]}, and this command puts its node into a "
+                    f"namespace (__ns), so it is another node and reads none of them: begin the file with /**: instead "
+                    f"of {owner[1]}:, which means every node",
+                )
+
+
 def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:
     """Return the innermost function around each call."""
     found: dict[int, ast.AST] = {}
@@ -166,4 +221,4 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
 
 
-LOOKS = (without_ros_args, values_apart, nested_parameters, quoted_truths, quotes_in_words)
+LOOKS = (without_ros_args, before_ros_args, values_apart, nested_parameters, quoted_truths, quotes_in_words)

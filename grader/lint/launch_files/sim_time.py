@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.lint.launch_files.reading import LaunchFile, argument, text
+from gz_course.grader.lint.launch_files.ros_arguments import command_words
 from gz_course.grader.lint.syntax import last_name, walk
 
 SIM_TIME = "use_sim_time"
@@ -21,11 +22,11 @@ def programs(file: LaunchFile) -> Iterator[dict[str, Any]]:
     others = [
         (call.lineno, text(file.value(argument(call, "executable", 0))))
         for call in file.calls("Node", "LifecycleNode")
-        if SIM_TIME in _texts(file, call) and not any(word.endswith(".py") for word in _texts(file, call))
+        if SIM_TIME in texts_of(file, call) and not any(word.endswith(".py") for word in texts_of(file, call))
     ]
     line, executable = others[0] if others else (0, "")
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
-        words = _texts(file, call)
+        words = texts_of(file, call)
         for word in words:
             name = word.rpartition("/")[2]
             if name.endswith(".py") and " " not in name:
@@ -41,9 +42,10 @@ def programs(file: LaunchFile) -> Iterator[dict[str, Any]]:
                 break
 
 
-def _texts(file: LaunchFile, call: ast.Call) -> set[str]:
+def texts_of(file: LaunchFile, call: ast.Call) -> set[str]:
     """Return all texts of an action, those that its names stand for too."""
-    return {text(each) for part in file.parts(call) for each in walk(part)} - {""}
+    parts = [*file.parts(call), *(part for part in command_words(file, call) if part is not None)]
+    return {text(each) for part in parts for each in walk(part)} - {""}
 
 
 def _unknown(file: LaunchFile, call: ast.Call) -> Iterator[bool]:
@@ -56,9 +58,4 @@ def _unknown(file: LaunchFile, call: ast.Call) -> Iterator[bool]:
         files = given.elts if isinstance(given, ast.List | ast.Tuple) else []
         yield any(not isinstance(file.value(each), ast.Dict) for each in files)
         yield any(file.calls("SetParameter", "SetUseSimTime", "SetParametersFromFile"))
-    name = "arguments" if last_name(call.func) == "Node" else "cmd"
-    given = file.value(argument(call, name, 0 if name == "cmd" else None))
-    words = given.elts if isinstance(given, ast.List | ast.Tuple) else []
-    yield not words and given is not None
-    for word in words:
-        yield isinstance(word, ast.Starred)
+    yield None in command_words(file, call) or "--params-file" in texts_of(file, call)

@@ -51,6 +51,7 @@ from gz_course.grader.lint.slips.language import (
     states,
     unchanged_conditions,
     unreached,
+    whole_arrays,
 )
 from gz_course.grader.lint.slips.language.everyday import LONGEST_PERIOD, periods
 from gz_course.grader.lint.slips.nodes import (
@@ -81,7 +82,7 @@ ROOMS = (
     limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS,
     rates.LOOKS, none_tests.LOOKS, one_array.LOOKS, shared_objects.LOOKS, endless_waits.LOOKS, own_calls.LOOKS,
     limited_values.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS, filtered_rays.LOOKS, map_starts.LOOKS,
-    colours.LOOKS,
+    colours.LOOKS, whole_arrays.LOOKS,
 )  # fmt: skip
 
 

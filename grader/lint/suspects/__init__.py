@@ -36,7 +36,9 @@ from gz_course.grader.lint.suspects.planning import (
     aims,
     closed_gates,
     forgetting,
+    frontiers,
     heaps,
+    kept_ways,
     made_cells,
     margins,
     own_places,
@@ -140,6 +142,8 @@ LOOKS = (
     *error_arithmetic.LOOKS,
     *exchanged_axes.LOOKS,
     *turned_angles.LOOKS,
+    *frontiers.LOOKS,
+    *kept_ways.LOOKS,
 )
 MOST = 20  # suspects kept
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.launched import by_python, deaths, launch_facts
+from gz_course.grader.score.launched import by_python, deaths, launch_facts, without_sim_time
 from gz_course.sim.did_you_mean import nearest_name
 
 _OTHERS = ("gz", "parameter_bridge", "create")  # processes that are not nodes of the student's
@@ -43,16 +43,5 @@ def launched_node(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, f"{node} was no longer in the ROS graph when the launch was interrupted")
     if not any(each["node"] == node and each["topic"] == "/clock" for each in endpoints):
         measured = f"{node} ran without use_sim_time: it does not follow /clock"
-        return Finding(False, expected, measured, explanation=_without(recording, program))
+        return Finding(False, expected, measured, explanation=without_sim_time(recording, program))
     return Finding(True, expected, "so it was")
-
-
-def _without(recording: Recording, program: str) -> str:
-    """Return which action starts the program without use_sim_time, and which has it instead; empty if unknown."""
-    for place in recording.facts().get("programs", []):
-        if place["program"] != program or place["sim_time"]:
-            continue
-        other = place["executable"] or "another program"
-        given = f"; line {place['elsewhere']} gives it to {other}" if place["elsewhere"] else ""
-        return f"{place['file']}, line {place['line']}: the command of {program} does not hold use_sim_time{given}"
-    return ""

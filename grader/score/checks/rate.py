@@ -19,6 +19,7 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.own_ends import ended_by_itself
 from gz_course.grader.score.steps import told, window_of
 from gz_course.grader.score.suspects import suspect
 
@@ -48,7 +49,9 @@ def rate(recording: Recording, parameters: Table) -> Finding:
     gap, at = float(gaps.max()), float(edges[gaps.argmax()])
     measured = f"{told(hertz)} messages a simulated second; the longest gap was {told(gap)} s, from {told(at)} s on"
     passed = bool(least <= hertz <= most and gap <= longest + 1e-9)
-    words = "" if passed else _why_so_seldom(recording, topic, times, hertz < least, gap if gap > longest else 0.0)
+    words = "" if passed or end - times[-1] < gap else ended_by_itself(recording, before=end)
+    if not passed and not words:
+        words = _why_so_seldom(recording, topic, times, hertz < least, gap if gap > longest else 0.0)
     return Finding(passed, expected, measured, round(at, 3), timing=True, explanation=words)
 
 

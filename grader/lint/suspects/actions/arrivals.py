@@ -1,4 +1,4 @@
-"""Suspects in the condition by which a place counts as reached: one coordinate is enough, or is all that is asked."""
+"""Suspects in the condition by which a place counts as reached: one coordinate, or a square of a distance."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
+from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, walk
 
 SIZES = frozenset({"abs", "fabs", "absolute"})
@@ -13,6 +14,7 @@ COORDINATE = re.compile(r"(?:.*_)?(?:d|e|delta|diff|err|error|gap|off|rest)?_?([
 SIGNED = re.compile(r"(?:.*_)?(?:d|delta|diff|err|error)_?[xy]")  # what a difference of coordinates is called
 LENGTH = re.compile(r"\b(?:hypot|dist|norm|sqrt)\(|\b(?:\w+_)?(?:distance|dist)(?:_\w+)?\b(?!\()")
 MANY = ast.GeneratorExp | ast.ListComp | ast.SetComp
+NEAREST_SQUARE = 0.0256  # [m^2] of 0.16 m
 DISTANCE = "what counts is the distance, math.hypot(dx, dy)"
 
 
@@ -161,4 +163,38 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
                     )
 
 
-LOOKS = (one_axis_is_enough, one_axis_is_asked, signs_are_kept, inverted_loops)
+def squares(tree: ast.Module) -> Iterator[Suspect]:
+    """Find `distance ** 2 < 0.15`, or `dx * dx + dy * dy < 0.15`: the square of 0.39 m is that small, too."""
+    if not called(tree) & {"succeed"}:
+        return
+    known = named_numbers(tree)
+    squared = {ast.unparse(target) for target, value in assigned(tree) if _is_square(value)}
+    for node in walk(tree):
+        match node:
+            case ast.Compare(left=left, ops=[ast.Gt() | ast.GtE() | ast.Lt() | ast.LtE()], comparators=[limit]):
+                pass
+            case _:
+                continue
+        value = number(limit, known)
+        if value is not None and NEAREST_SQUARE < value < 1 and (_is_square(left) or ast.unparse(left) in squared):
+            yield (
+                node.lineno,
+                "squared",
+                f"`{ast.unparse(node)[:80]}` compares a square with a distance: the square of {value**0.5:.2f} m is "
+                f"{value:g}, so the robot counts as there {value**0.5:.2f} m away: square the limit, too",
+            )
+
+
+def _is_square(node: ast.AST) -> bool:
+    """Return whether an expression is a square, or a sum of squares."""
+    match node:
+        case ast.BinOp(op=ast.Pow(), right=ast.Constant(value=2)):
+            return True
+        case ast.BinOp(left=left, op=ast.Mult(), right=right):
+            return ast.unparse(left) == ast.unparse(right)
+        case ast.BinOp(left=left, op=ast.Add(), right=right):
+            return _is_square(left) and _is_square(right)
+    return False
+
+
+LOOKS = (squares, one_axis_is_enough, one_axis_is_asked, signs_are_kept, inverted_loops)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
-from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, walk
+from gz_course.grader.lint.syntax import Suspect, assigned, called, functions, last_name, left_early, walk
 
-FIELD = "visited"
+FIELD, CANCELLED = "visited", "is_cancel_requested"
 Loop = ast.While | ast.For
 
 
@@ -84,4 +86,59 @@ def _is_one(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value == 1
 
 
-LOOKS = (counted_on_departure, counted_when_cancelled)
+def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an inner loop that a cancellation ends, where the loop over the waypoints goes on and counts."""
+    names = _counts(tree)
+    own = {function.name: function for function in functions(tree)}
+    for loop in (each for each in walk(tree) if isinstance(each, Loop)):
+        ended: _End | None = None
+        for statement in loop.body:
+            if (found := _ended_by_a_cancellation(statement, own)) is not None or ended is None:
+                ended = found
+                continue
+            asks = {CANCELLED, *ended.flags} & set(re.findall(r"\w+", ast.unparse(statement)))
+            if asks or (left_early(statement) and not isinstance(statement, Loop)):
+                break
+            counted = next((t for t, _ in assigned(statement) if ast.unparse(t) in names), None)
+            if counted is not None and isinstance(statement, ast.Assign | ast.AugAssign):
+                leaves = any(left_early(each) for each in loop.body if not isinstance(each, Loop))
+                then = "" if leaves else f", and the loop of line {loop.lineno} goes on to the next one"
+                yield (
+                    ended.line,
+                    "counted",
+                    f"{ended.what} when the goal is cancelled; then line {statement.lineno}, "
+                    f"`{ast.unparse(statement)}`, counts the waypoint all the same{then}: ask for is_cancel_requested "
+                    "before that line, too",
+                )
+                break
+
+
+@dataclass(frozen=True)
+class _End:
+    """What ends the drive to one waypoint when a goal is cancelled, and the flags that it sets meanwhile."""
+
+    line: int
+    what: str
+    flags: frozenset[str] = frozenset()
+
+
+def _ended_by_a_cancellation(statement: ast.stmt, own: Mapping[str, ast.FunctionDef]) -> _End | None:
+    """Return what ends a loop, or a function of the file whose result is dropped, when a goal is cancelled."""
+    if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
+        function = own.get(last_name(statement.value.func))
+        loops = [each for each in walk(function) if isinstance(each, ast.While)] if function is not None else []
+        if function is not None and any(CANCELLED in ast.unparse(each) for each in loops):
+            sets = (last_name(target) for target, _ in assigned(function) if isinstance(target, ast.Attribute))
+            return _End(statement.lineno, f"{function.name}() returns", frozenset(sets))
+    if not isinstance(statement, ast.While | ast.For) or statement.orelse:
+        return None
+    if isinstance(statement, ast.While) and CANCELLED in ast.unparse(statement.test):
+        return _End(statement.lineno, f"`while {ast.unparse(statement.test)[:80]}` ends")
+    for test in (each for part in statement.body for each in walk(part) if isinstance(each, ast.If)):
+        if CANCELLED in ast.unparse(test.test) and isinstance(test.body[-1], ast.Break):
+            flags = frozenset(last_name(target) for part in test.body for target, _ in assigned(part))
+            return _End(test.body[-1].lineno, "this break leaves only the inner loop", flags)
+    return None
+
+
+LOOKS = (counted_on_departure, counted_when_cancelled, counted_after_a_break)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from gz_course.grader.lint.suspects.steering.headings import HEADING
 from gz_course.grader.lint.syntax import Suspect, assigned, called, walk
 
+WHOLE_TURN = re.compile(r"2(?:\.0)? \* [\w.]*pi|[\w.]*pi \* 2|\btau\b|6\.28")
 AIMED = frozenset({"atan2", "arctan2"})
 
 
@@ -45,6 +47,31 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
             )
 
 
+def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `error = (atan2(dy, dx) - yaw) % (2 * pi)`, which is never negative, so all turns go to the left."""
+    pairs = list(assigned(tree))
+    aimed = {ast.unparse(target) for target, value in pairs if called(value) & AIMED}
+    text = ast.unparse(tree)
+    for target, value in pairs:
+        match value:
+            case ast.BinOp(left=error, op=ast.Mod(), right=whole):
+                pass
+            case ast.Call(func=ast.Attribute(attr="mod"), args=[error, whole]):
+                pass
+            case _:
+                continue
+        name = ast.unparse(target)
+        if not WHOLE_TURN.search(ast.unparse(whole)) or not _goal_minus_heading(error, aimed):
+            continue
+        if not re.search(rf"{re.escape(name)} (?:>=?|-=?) [\w.]*pi", text):  # what follows may bring it below pi
+            yield (
+                value.lineno,
+                "wrap",
+                f"`{ast.unparse(value)[:80]}` lies between 0 and 2 pi, so a goal a little to the right is nearly a "
+                f"whole turn to the left: {name} must lie between -pi and pi, as remainder(..., 2 * pi) does",
+            )
+
+
 def _goal_minus_heading(value: ast.expr, aimed: set[str]) -> bool:
     for node in walk(value):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
@@ -65,4 +92,7 @@ def _turn(statement: ast.stmt) -> ast.expr | None:
     return None
 
 
-LOOKS = (wrong_side,)
+LOOKS = (
+    wrong_side,
+    whole_turns,
+)

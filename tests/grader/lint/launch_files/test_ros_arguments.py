@@ -33,6 +33,36 @@ def test_parameters_without_ros_args(command, found):
     assert any("--ros-args is missing before" in each["said"] for each in slips) == found
 
 
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        (
+            'command = ["python3", "a.py", *parameters, "--ros-args", *names]',
+            "-p f'gap:={GAP}' stands before --ros-args",
+        ),
+        (
+            'command = ["python3", "a.py"] + names + ["--ros-args"] + parameters',
+            "-r f'__ns:=/robot{number}' stands before",
+        ),
+        ('command = ["python3", "a.py", "--ros-args", *names, "--", "-p", "gap:=1.2"]', "stands behind the --"),
+        (
+            'return Node(package="a", executable="b", arguments=["-p", "gap:=1.2", "--ros-args", *names])',
+            "-p gap:=1.2 stands before",
+        ),
+        (
+            'return Node(package="a", executable="b", arguments=["-p", "gap:=1.2"])',
+            "--ros-args is missing before -p gap:=1.2",
+        ),
+        ('return Node(package="a", executable="b", arguments=["--ros-args", "-p", "gap:=1.2"])', ""),
+        ('command = ["python3", "a.py", "--ros-args", *names, *parameters, "--"]', ""),
+    ],
+)
+def test_parameters_on_the_wrong_side_of_ros_args(command, words):
+    slips = launch_places(LAUNCH.replace("COMMAND", command).encode())["launch_slips"]
+    found = [each["said"] for each in slips if "--ros-args" in each["said"]]
+    assert bool(found) == bool(words) and words in " ".join(found)
+
+
 def test_a_parameter_that_the_program_does_not_declare():
     command = 'command = ["python3", "a.py", "--ros-args", *names, *parameters]'
 
@@ -96,3 +126,28 @@ def test_quotes_that_no_shell_takes_away(word, shell, found):
     )
     slips = launch_places(file.encode())["launch_slips"]
     assert any("write use_sim_time:=true" in each["said"] for each in slips) == found
+
+
+@pytest.mark.parametrize(
+    ("owner", "found"), [("follower", True), ("/follower", True), ("/**", False), ("/robot2/follower", False)]
+)
+def test_a_parameter_file_for_a_node_without_its_namespace(owner, found):
+    command = 'command = ["python3", "a.py", "--ros-args", *names, "--params-file", str(HERE / "a.yaml")]'
+    content = f"# of all\n{owner}:\n  ros__parameters:\n    gap: 1.2\n".encode()
+    slips = launch_places(LAUNCH.replace("COMMAND", command).encode(), {"a.yaml": content})["launch_slips"]
+    assert any("holds parameters of the node /follower" in each["said"] for each in slips) == found
+
+
+def test_simulated_time_for_a_command_whose_words_are_put_together():
+    command = 'command = ["python3", "a.py", "--ros-args", *names, *parameters]'
+    launch = (
+        LAUNCH.replace("COMMAND", command) + "LaunchDescription([SetParameter('use_sim_time', True), follower(2)])\n"
+    )
+
+    def said(source):
+        return " ".join(each["said"] for each in launch_places(source.encode())["launch_slips"])
+
+    assert "SetParameter reaches only the Node actions" in said(launch)
+    assert "SetParameter reaches only" not in said(launch.replace('["-p", f"gap', '["-p", "use_sim_time:=true", f"gap'))
+    assert "SetParameter reaches only" not in said(launch.replace("*names, ", "*names, *more, "))
+    assert "SetParameter reaches only" not in said(launch.replace("*names, ", "'--params-file', 'a.yaml', *names, "))

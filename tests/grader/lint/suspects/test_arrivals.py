@@ -91,3 +91,17 @@ def test_feedback_under_a_condition():
 def test_a_loop_that_goes_on_while_the_robot_is_near():
     assert "goes on while the robot is near" in said(RIGHT.replace("> NEAR", "< NEAR"), "inverted")
     assert said(RIGHT.replace(LOOP, "while self.gone < leg:"), "inverted") == ""
+
+
+@pytest.mark.parametrize(
+    ("loop", "found"),
+    [
+        ("while dx * dx + dy * dy > 0.15:", True),
+        ("while math.hypot(dx, dy) ** 2 > 0.1:", True),
+        ("while dx**2 + dy**2 > 0.15**2:", False),
+        ("while dx**2 + dy**2 > 0.01:", False),
+        ("while math.hypot(dx, dy) > 0.15:", False),
+    ],
+)
+def test_the_square_of_a_distance(loop, found):
+    assert bool(said(RIGHT.replace(LOOP, loop), "squared")) == found

@@ -53,6 +53,53 @@ def test_waypoints_that_count_too_early(old, new, words):
     assert len(found) == 1 and words in found[0]
 
 
+BREAK = """\
+                if handle.is_cancel_requested:
+                    break
+                time.sleep(0.1)
+"""
+RETURN = RIGHT[RIGHT.index("                if handle.is") : RIGHT.index("            visited += 1")]
+IN_A_CONDITION = LOOP.replace(":\n", " and not handle.is_cancel_requested:\n")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ([(RETURN, BREAK)], "this break leaves only the inner loop when the goal is cancelled; then line 20"),
+        ([(RETURN, BREAK), ("            visited +=", "            if handle.is_cancel_requested:\n" + " " * 16
+          + "break\n            visited +=")], ""),
+        ([(LOOP, IN_A_CONDITION), (RETURN, "                time.sleep(0.1)\n")], "ends when the goal is cancelled"),
+        ([(RETURN, BREAK.replace("    break", "    gone = True\n" + " " * 20 + "break"))], "this break leaves only"),
+        ([(RETURN, BREAK.replace("    break", "    gone = True\n" + " " * 20 + "break")),
+          ("            visited +=", "            if gone:\n                break\n            visited +=")], ""),
+        ([(RETURN, BREAK), ("            visited += 1", "            else:\n                visited += 1")], ""),
+    ],
+)  # fmt: skip
+def test_a_cancellation_that_leaves_one_loop_of_two(changes, words):
+    source = RIGHT
+    for old, new in changes:
+        assert old in source
+        source = source.replace(old, new)
+    found = said(source, "counted")
+    assert bool(found) == bool(words) and words in " ".join(found)
+
+
+def test_a_function_that_returns_when_a_goal_is_cancelled_and_is_not_asked_why():
+    drive = """
+    def drive(self, handle, waypoint):
+        while self.left(waypoint) > 0.1:
+            if handle.is_cancel_requested:
+                return False
+            time.sleep(0.1)
+        return True
+"""
+    inner = RIGHT[RIGHT.index(LOOP) : RIGHT.index("            visited += 1")]
+    dropped = RIGHT.replace(inner, "            self.drive(handle, waypoint)\n") + drive
+    assert "drive() returns when the goal is cancelled" in " ".join(said(dropped, "counted"))
+    asked = "            if not self.drive(handle, waypoint):\n                break\n"
+    assert not said(RIGHT.replace(inner, asked) + drive, "counted")
+
+
 @pytest.mark.parametrize(
     ("waits", "name"),
     [
