@@ -33,7 +33,9 @@ def straight_on(run):
     if len(times) < 20 or len(ahead) != len(times):
         return ""
     far = np.interp(times, run.times, np.minimum(run.error, 9.0)) > FAR
-    straight = (np.abs(signal.values) < 0.01) & (ahead > 0.01) & far & (times > 3.0)
+    straight = np.abs(signal.values) < 0.01
+    straight[1:-1] |= straight[:-2] & straight[2:]  # a single command may turn
+    straight &= (ahead > 0.01) & far & (times > 3.0)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], straight, [False]]).astype(int)))
     for start, end in zip(edges[::2], edges[1::2] - 1, strict=True):
         if times[end] - times[start] < LONG:

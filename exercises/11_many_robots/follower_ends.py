@@ -84,8 +84,8 @@ def one_name_for_several(started, followers):
     if not followers or started <= len(followers):
         return ""
     return (
-        f"{started} programs were started, and all are called {' or '.join(followers)}: the namespace is that of the "
-        "command line, -r __ns:=/robot3, and one that is written into the node itself counts for all of them"
+        f"{started} programs were started, and all are called {' or '.join(followers)}: each takes its namespace "
+        "from its command line, -r __ns:=/robot3, of which the first one counts, unless its own code names one"
     )
 
 

@@ -314,7 +314,7 @@ def walls_missing(said, wanted, before, said_of=""):
                     "walls that were in earlier maps are free in the last one: rays that pass a cell, or end in it, "
                     "make it free again; a hit must count for more than they do"
                 )
-            words = said_of or "each scan must be added to what is known, not replace it"
+            words = said_of or "what was seen once must stay in the map, so add each scan to what is known"
             return f"walls that were in earlier maps are gone: {words}"
     if ((values >= 0) & (values <= 25)).mean() > 0.4:
         return (

@@ -182,7 +182,9 @@ def _adapted_type(text: str, package: str) -> adapter.Type:
         raise _Expected(f"'{text}' is not a type: the type comes first, then the name, without a colon")
     if re.fullmatch(r"\w+/(msg|srv|action)/\w+", base):
         package, _, name = base.split("/")
-        raise _Expected(f"'{text}' is not a type: write {package}/{name}, without the folder between them")
+        raise _Expected(
+            f"'{text}' is not a type: write {package}/{name}{text[len(base) :]}, without the folder between them"
+        )
     if base[:1].islower() and "/" not in base and base not in _PRIMITIVES:
         raise _Expected(f"unknown type '{base}'" + (did_you_mean(base, _PRIMITIVES) or _shapes()))
     try:

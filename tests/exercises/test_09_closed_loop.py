@@ -222,6 +222,8 @@ def test_driving_straight_on_far_from_the_wall_is_named():
     gone = np.where((times > 8) & (times < 10), 2.0, 0.6)
     said = DRIVING["straight_on"](driven(np.where(gone > 1, 0.0, 0.3), 0.4, gone, "right"))
     assert said.startswith("from 8.1 s on angular.z was 0 for 1.8 s") and "to the right" in said
+    once = np.where(np.abs(times - 9.0) < 0.05, 0.2, np.where(gone > 1, 0.0, 0.3))
+    assert DRIVING["straight_on"](driven(once, 0.4, gone, "right")) == said
     assert DRIVING["straight_on"](driven(0.3, 0.4, gone)) == ""
     assert DRIVING["straight_on"](driven(0.0, 0.4, 2.0 - 0.03 * times)) == ""  # at an angle towards the wall
 

@@ -29,6 +29,7 @@ from gz_course.grader.lint.launch_files.remappings import remappings
 from gz_course.grader.lint.launch_files.sim_time import programs
 from gz_course.grader.lint.slips.language.late_binding import late_bound
 from gz_course.grader.lint.slips.language.no_effect import first_iteration
+from gz_course.grader.lint.slips.language.shared_objects import one_list_for_all
 from gz_course.grader.lint.slips.nodes.scan_callbacks import kept_defaults
 from gz_course.grader.lint.syntax import Places, places_in
 
@@ -59,7 +60,8 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         slips += namespaces.exchanged_rules(file, nodes)
         slips += ros_arguments.files_without_namespace(file, nodes)
         slips += [*ros_arguments.undeclared(file, nodes), *actions.events_that_never_come(file, nodes)]
-        slips += [*late_bound(tree), *missing_commas(content), *unread.undeclared_parameters(file, nodes)]
+        slips += [*late_bound(tree), *one_list_for_all(tree), *missing_commas(content)]
+        slips += [*unread.undeclared_parameters(file, nodes)]
         slips += unread.for_another_program(file, nodes)
         slips += [place for look in unread.LOOKS for place in look(file)]
         found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]

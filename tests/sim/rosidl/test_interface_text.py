@@ -35,7 +35,7 @@ def sentence(text, kind="msg", name="Thing", package="some_msgs"):
         ("int8[-1] a", "'int8[-1]' is not a type"),
         ("string<=0 a", "'string<=0' is not a type"),
         ("a/b/c d", "'a/b/c' is not a type"),
-        ("some_msgs/msg/Thing[] d", "'some_msgs/msg/Thing[]' is not a type: write some_msgs/Thing, without the folder"),
+        ("some_msgs/msg/Thing[] d", "'some_msgs/msg/Thing[]' is not a type: write some_msgs/Thing[], without"),
         ("int8 d[]", "Thing.msg:1: the brackets of an array belong to its type: int8[] d"),
         ("speed: float64", "'speed:' is not a type: the type comes first, then the name"),
         ("Some/Thing d", "'Some/Thing' is not a type"),

@@ -1,11 +1,11 @@
-"""One object, or one attribute of a class, that keeps what belongs to two: what one callback stores, the other gets."""
+"""One object, list or attribute of a class that keeps what belongs to several: what one stores, the others get."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.lint.syntax import Place, assigned, calls, walk
+from gz_course.grader.lint.syntax import Place, assigned, calls, functions, walk
 
 
 def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
@@ -101,4 +101,47 @@ def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
                     return
 
 
-LOOKS = (replaced_after_it_was_handed_over, one_object_for_two, kept_by_the_class)
+def one_list_for_all(tree: ast.AST) -> Iterator[Place]:
+    """Find `command = BASE` and `command += [...]` in a function that is called for each of several."""
+    whole = tree.body if isinstance(tree, ast.Module) else []
+    lists = {
+        each.targets[0].id
+        for each in whole
+        if isinstance(each, ast.Assign) and isinstance(each.targets[0], ast.Name) and isinstance(each.value, ast.List)
+    }
+    for function in functions(tree) if lists else ():
+        names = {
+            target.id: (target.lineno, value.id)
+            for target, value in assigned(function)
+            if isinstance(target, ast.Name) and isinstance(value, ast.Name) and value.id in lists
+        }
+        for line, name in _grown(function):
+            if name in names and _called_for_several(tree, function.name):
+                set_in, base = names[name]
+                yield (
+                    line,
+                    f"{name} is {base} itself (line {set_in}), not a copy, so this adds to {base}, and every call of "
+                    f"{function.name}() finds what those before it have added: {name} = [*{base}] makes a new list",
+                )
+                break
+
+
+def _grown(function: ast.FunctionDef) -> Iterator[tuple[int, str]]:
+    """Yield the lists to which a function adds, each with its line."""
+    for node in walk(function):
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
+            yield node.lineno, ast.unparse(node.target)
+    for call, name in calls(function):
+        if name in ("append", "extend", "insert") and isinstance(call.func, ast.Attribute):
+            yield call.lineno, ast.unparse(call.func.value)
+
+
+def _called_for_several(tree: ast.AST, name: str) -> bool:
+    """Return whether a function is called in several places, or in a loop."""
+    loops = [node for node in walk(tree) if isinstance(node, ast.For | ast.While | ast.ListComp | ast.GeneratorExp)]
+    return sum(each == name for _, each in calls(tree)) > 1 or any(
+        each == name for loop in loops for _, each in calls(loop)
+    )
+
+
+LOOKS = (replaced_after_it_was_handed_over, one_object_for_two, kept_by_the_class, one_list_for_all)

@@ -1,4 +1,4 @@
-"""Fractions that are added to the numbers of an array of whole numbers: NumPy cuts them off and says nothing.
+"""Numbers that an array cannot hold, about which NumPy says nothing: fractions in whole numbers, counters in bytes.
 
 `a[i, j] += 0.4` and `a[cells] = a[cells] + 0.4` convert the sum when it is stored. `a[cells] += 0.4`, of several cells,
 raises an error, as `a += 0.4` does.
@@ -18,6 +18,7 @@ from gz_course.grader.lint.syntax import Place, functions, last_name, set_to, wa
 NUMPY = ("np", "numpy")
 FILLED = {"zeros": 1, "ones": 1, "empty": 1, "full": 2, "array": 1, "zeros_like": 1, "full_like": 2}  # place of dtype
 WHOLE = re.compile(r"(?:np\.|numpy\.)?u?int(?:8|16|32|64|c|p|_)?|[ui][1248]|[bBhHiIlL]")
+SMALL = re.compile(r"(?:np\.|numpy\.|['\"])(?P<unsigned>u)?int8\b")
 KEEPS_FRACTIONS = frozenset({"max", "min", "maximum", "minimum", "clip", "abs", "where", "fmax", "fmin"})
 
 
@@ -55,6 +56,47 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
                     f"{', and 0 stays 0' if abs(step) < 1 else ''}: make the array with dtype=float",
                 )
                 return
+
+
+def counters_that_wrap(tree: ast.AST) -> Iterator[Place]:
+    """Find `hits[cell] += 1` where `hits` is an array of one byte for each number, and nothing limits it."""
+    values = set_to(tree)
+    arrays = {
+        name: (made, SMALL.search(ast.unparse(made)))
+        for name, made in _whole_arrays(values, named_numbers(tree)).items()
+        if made is not None
+    }
+    small = {name: (made, bool(kind["unsigned"])) for name, (made, kind) in arrays.items() if kind}
+    text = ast.unparse(tree)
+    given = _given(tree) if small else {}
+    for function in functions(tree) if small else ():
+        parameters = [each.arg for each in function.args.args if each.arg != "self"]
+        for node in walk(function):
+            if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+                continue
+            name = _array(node.target)
+            names = [name]
+            if name in parameters:
+                names = [ast.unparse(each) for each in given.get((function.name, parameters.index(name)), [])]
+            counted = next((each for each in names if each in small and not _limited(text, each)), "")
+            if counted and isinstance(number(node.value, {}), int):
+                made, unsigned = small[counted]
+                last, then = (255, 0) if unsigned else (127, -128)
+                yield (
+                    node.lineno,
+                    f"{counted} is an array of bytes (line {made.lineno}: `{ast.unparse(made)[:60]}`), which end at "
+                    f"{last}: one more is {then}, so what is counted often begins again: make the array with dtype=int",
+                )
+                return
+
+
+def _limited(text: str, name: str) -> bool:
+    """Return whether a text limits the numbers of an array, or asks for how large they are."""
+    array = re.escape(name)
+    return bool(
+        re.search(rf"(?:clip|min|minimum|maximum|max)\([^()]*{array}\b", text)
+        or re.search(rf"{array}(?:\[[^]]*\])? (?:<|<=|>=) \d{{2,}}", text)
+    )
 
 
 def _whole_arrays(values: Mapping[str, list[ast.expr]], names: Mapping[str, Number]) -> dict[str, ast.expr | None]:
@@ -149,4 +191,4 @@ def _fractions(
                 yield float(value)
 
 
-LOOKS = (fractions_cut_off,)
+LOOKS = (fractions_cut_off, counters_that_wrap)

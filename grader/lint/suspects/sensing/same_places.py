@@ -10,6 +10,7 @@ from gz_course.grader.lint.constants import named_numbers, number
 from gz_course.grader.lint.suspects.sensing.known_places import kept
 from gz_course.grader.lint.syntax import Suspect, assigned, called, calls, functions, last_name, walk
 
+ONE_NUMBER = re.compile(r"lambda (\w+): (?:abs\()?\1\[[01]\]\)?|(?:operator\.)?itemgetter\([01]\)")
 DISTANCE = re.compile("hypot|dist|norm|sqrt")
 MEASURES = {"distance": ("hypot", "norm", "sqrt"), "direction": ("atan2", "arctan2", "atan", "arctan")}
 FARTHEST, NEAREST = 1.5, 0.05  # [m] limits beyond which no sensible rule for the same post is
@@ -257,11 +258,13 @@ def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
         if name not in ("min", "sorted") or not call.args or ast.unparse(call.args[0]) not in names:
             continue
         key = next((each.value for each in call.keywords if each.arg == "key"), None)
-        if key is None or re.fullmatch(r"lambda (\w+): \1\[0\]|(?:operator\.)?itemgetter\(0\)", ast.unparse(key)):
+        by = None if key is None else ONE_NUMBER.fullmatch(ast.unparse(key))
+        if key is None or by:
+            which = "second numbers, y," if by and "1" in by[0][-3:] else "first numbers, x,"
             yield (
                 call.lineno,
                 "nearest",
-                f"{ast.unparse(call)[:60]} compares the first numbers, x, and not distances: give it key=lambda post: "
+                f"{ast.unparse(call)[:60]} compares the {which} and not distances: give it key=lambda post: "
                 "hypot(*post)",
             )
 

@@ -67,10 +67,11 @@ def find_world(name: str | Path) -> Path:
         inside = sorted(path.name for path in Path(text).glob("*.sdf"))[:3]
         hint = f", for example {Path(text) / inside[0]}" if inside else ""
         raise ResourceError(f"'{text}' is a folder, not a world file; name a file in it{hint}")
-    known = {path.name for folder in folders for path in _worlds_in(folder)}
+    known, name = {path.name for folder in folders for path in _worlds_in(folder)}, Path(text).name
+    near = did_you_mean(name, known, listing="worlds that exist are")
     raise ResourceError(
         f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds"
-        f"{did_you_mean(Path(text).name, known, listing='worlds that exist are')}"
+        f"{f'; {name}, without a folder, is found' if name in known else near}"
     )
 
 

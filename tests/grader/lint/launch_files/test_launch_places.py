@@ -209,6 +209,13 @@ def test_what_follows_a_parameter_of_the_scope(listed, words):
     assert words in "".join(found) and bool(words) == bool(found)
 
 
+def test_a_command_that_grows_from_program_to_program():
+    added = "    command = BASE\n    command += ['-r', f'__ns:=/r{number}']\n    return ExecuteProcess(cmd=command)\n"
+    text = f"BASE = ['python3', 'a.py', '--ros-args']\ndef follower(number):\n{added}\nmade = [follower(n) for n in range(3)]\n"
+    places = launch_places(text.encode())["launch_slips"]
+    assert [place["line"] for place in places] == [4] and "command is BASE itself" in places[0]["said"]
+
+
 def test_what_is_no_python_has_no_places():
     assert launch_places(b"def (") == {}
 

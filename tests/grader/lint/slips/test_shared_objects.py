@@ -78,3 +78,33 @@ def test_a_second_map_that_is_handed_over():
     text = KEPT.format("pass").replace("Planner(self.grid)", "Planner(Grid(100, 80))")
     said = [each["said"] for each in slips(text.encode())]
     assert any("is a second one here, beside self.grid" in each for each in said)
+
+
+LAUNCH = """\
+BASE = ["python3", "follower.py"]
+BASE += ["--ros-args"]
+def follower(number):
+    command = BASE
+    command += ["-r", f"__ns:=/robot{number}"]
+    return ExecuteProcess(cmd=command)
+def convoy(context):
+    return [follower(number) for number in range(2, 5)]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "found"),
+    [
+        ("", "", True),
+        ("command += [", "command.extend([", True),
+        ("command = BASE", "command = [*BASE]", False),
+        ("command = BASE", "command = BASE + []", False),
+        ("command += [", "command = command + [", False),
+        ("[follower(number) for number in range(2, 5)]", "[follower(2)]", False),
+    ],
+)
+def test_a_list_that_grows_from_call_to_call(old, new, found):
+    source = LAUNCH.replace(old, new)
+    source = source.replace('robot{number}"]', 'robot{number}"])') if "extend(" in new else source
+    said = [each["said"] for each in slips(source.encode())]
+    assert any("command is BASE itself (line 4), not a copy" in each for each in said) is found

@@ -1,4 +1,4 @@
-"""Fractions that are added to the numbers of an array of whole numbers, and arrays that keep them."""
+"""Fractions that are added to the numbers of an array of whole numbers, counters in bytes, and what holds them."""
 
 import pytest
 
@@ -60,3 +60,22 @@ def test_whole_numbers_stay_unnamed(change):
 def test_the_kinds_of_arrays(made):
     source = MAPPER.replace("CHANGE", CUT[0]).replace("np.zeros((80, 100), dtype=int)", made)
     assert bool(said(source)) == (made in MADE)
+
+
+@pytest.mark.parametrize(
+    ("made", "change", "words"),
+    [
+        ("np.zeros((80, 100), dtype=np.int8)", "self.odds[cell] += 1", "end at 127: one more is -128"),
+        ("np.zeros((80, 100), np.uint8)", "self.count(self.odds, cell)", "end at 255: one more is 0"),
+        ("np.zeros((80, 100), dtype='int8')", "self.odds[cell][0] += 3", "end at 127"),
+        ("np.zeros((80, 100), dtype=int)", "self.odds[cell] += 1", ""),
+        ("np.zeros((80, 100), dtype=np.int8)", "self.count(cell, self.odds)", ""),
+        ("np.zeros((80, 100), dtype=np.int8)", "if self.odds[cell] < 100: self.odds[cell] += 1", ""),
+        ("np.zeros((80, 100), dtype=np.int8)", "self.odds[cell] += 1; self.odds = np.clip(self.odds, 0, 100)", ""),
+    ],
+)
+def test_counters_in_bytes(made, change, words):
+    source = MAPPER.replace("CHANGE", change).replace("np.zeros((80, 100), dtype=int)", made)
+    source += "    def count(self, counter, cell):\n        counter[cell] += 1\n"
+    found = [each["said"] for each in slips(source.encode()) if "array of bytes" in each["said"]]
+    assert len(found) == bool(words) and all(words in each for each in found)

@@ -71,10 +71,19 @@ def test_limits_that_are_no_metres(limit, words):
     assert about == "same" and f"with {float(limit):g} m" in said and words in said
 
 
-@pytest.mark.parametrize("target", ["min(self.posts)", "sorted(self.posts)[0]", "min(self.posts, key=lambda p: p[0])"])
-def test_the_smallest_x_is_not_the_nearest(target):
+@pytest.mark.parametrize(
+    ("target", "which"),
+    [
+        ("min(self.posts)", "first numbers, x"),
+        ("sorted(self.posts)[0]", "first numbers, x"),
+        ("min(self.posts, key=lambda p: p[0])", "first numbers, x"),
+        ("min(self.posts, key=lambda post: abs(post[0]), default=None)", "first numbers, x"),
+        ("min(self.posts, key=lambda p: abs(p[1]))", "second numbers, y"),
+    ],
+)
+def test_the_smallest_coordinate_is_not_the_nearest(target, which):
     ((about, said),) = found(target=target)
-    assert about == "nearest" and "compares the first numbers, x" in said
+    assert about == "nearest" and f"compares the {which}" in said
 
 
 def test_a_list_that_is_emptied_and_counted():

@@ -141,6 +141,13 @@ def test_a_broken_model_config_names_its_line(tmp_path: Path) -> None:
         find_model(str(cart), None)
 
 
+def test_a_built_in_world_is_named_without_a_folder(tmp_path: Path) -> None:
+    with pytest.raises(ResourceError, match=r"built-in worlds; shapes\.sdf, without a folder, is found$"):
+        find_world(str(tmp_path / "shapes.sdf"))
+    with pytest.raises(ResourceError, match=r"; did you mean 'shapes\.sdf'\?$"):
+        find_world("shape.sdf")
+
+
 def test_a_world_is_not_downloaded_and_a_huge_one_not_read(tmp_path: Path) -> None:
     with pytest.raises(ResourceError, match="would have to be downloaded"):
         find_world("https://fuel.gazebosim.org/1.0/OpenRobotics/worlds/Empty")
