@@ -32,6 +32,7 @@ def test_yields(hello, launch_context):
         return True
     assert tools.wait_for_output_sync(launch_context, hello, awaited, timeout=60)
     assert not tools.wait_for_output_sync(launch_context, hello, lambda output: output == "never", timeout=0.0)
+    assert tools.wait_for_exit_sync(launch_context, hello, timeout=60)  # what has spoken may still be about to end
     yield
     assert hello.return_code == 0
 
