@@ -211,8 +211,8 @@ def test_what_follows_a_parameter_of_the_scope(listed, words):
 
 def test_a_command_that_grows_from_program_to_program():
     added = "    command = BASE\n    command += ['-r', f'__ns:=/r{number}']\n    return ExecuteProcess(cmd=command)\n"
-    text = f"BASE = ['python3', 'a.py', '--ros-args']\ndef follower(number):\n{added}\nmade = [follower(n) for n in range(3)]\n"
-    places = launch_places(text.encode())["launch_slips"]
+    base, made = "BASE = ['python3', 'a.py', '--ros-args']\n", "made = [follower(n) for n in range(3)]\n"
+    places = launch_places(f"{base}def follower(number):\n{added}\n{made}".encode())["launch_slips"]
     assert [place["line"] for place in places] == [4] and "command is BASE itself" in places[0]["said"]
 
 
