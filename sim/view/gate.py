@@ -259,6 +259,7 @@ def install(gate: Gate, web_server: ModuleType) -> None:
         options["process_request"] = functools.partial(gate.answer, options["process_request"])
         options["process_response"] = gate.seal
         options.update(create_connection=Connection, open_timeout=_REQUEST_S, max_size=_MOST_BYTES)
+        gate.socket.listen()  # who comes before Studio accepts waits for it
         gate.serving.set()
         return plain_serve(handler, **options)
 

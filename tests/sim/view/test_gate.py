@@ -91,6 +91,18 @@ def test_it_listens_on_loopback_unless_told_otherwise(gate: Gate) -> None:
         Gate("192.0.2.1")
 
 
+def test_whoever_comes_before_studio_accepts_waits_for_it() -> None:
+    studio = FakeStudio("studio")
+    studio.serve = lambda handler, **options: None  # it has not begun yet
+    made = Gate()
+    install(made, studio)
+    studio.bind()
+    studio.serve(None, sock=studio.public, process_request=lambda *_: None)
+    check(made, DEADLINE)
+    socket.create_connection(("127.0.0.1", made.port), DEADLINE).close()
+    made.socket.close()
+
+
 def test_the_address_opens_the_page(gate: Gate) -> None:
     response, body = get(gate, urlsplit(gate.address).path)
     assert response.status == 200
