@@ -52,14 +52,19 @@ class LaunchContext:
         self.__is_shutdown = state
 
     def _hold_signal(self, number: int) -> None:
-        """Record a signal that arrives during a visit. Raises KeyboardInterrupt, because the visit may never return."""
+        """Record a signal that arrives during a visit.
+
+        Raises KeyboardInterrupt, because the visit may never return; once the launch is shutting down, only for the
+        second signal, because every handler must hear of the shutdown.
+        """
+        is_first = self._held_signal is None
         self._held_signal = number
-        if not self.__is_uninterrupted:
+        if not (self.__is_uninterrupted or (self.is_shutdown and is_first)):
             raise KeyboardInterrupt
 
     @contextlib.contextmanager
     def uninterrupted(self) -> Iterator[None]:
-        """Postpone the KeyboardInterrupt of a signal to the end of the block, for the start of a process."""
+        """Postpone the KeyboardInterrupt of a signal to the end of the block, for the start of a process or task."""
         self.__is_uninterrupted = True
         try:
             yield

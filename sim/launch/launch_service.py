@@ -23,6 +23,7 @@ from types import FrameType
 import gz_course.sim.launch.logging as launch_logging
 from gz_course.sim.launch.errors import LaunchError, sentence
 from gz_course.sim.launch.event import Event
+from gz_course.sim.launch.event_handler import EventHandler
 from gz_course.sim.launch.events import IncludeLaunchDescription, Shutdown
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
@@ -172,11 +173,20 @@ class LaunchService:
         if isinstance(event, IncludeLaunchDescription):
             visit(event.launch_description, context)
         for handler in context.handlers_of(event):
-            context._push_locals()
-            context.extend_locals({"event": event})
-            for entity in listed(handler.handle(event, context), f"the answer of {type(handler).__name__}"):
-                visit(entity, context)
-            context._pop_locals()
+            try:
+                self._visit_answer(handler, event)
+            except KeyboardInterrupt:
+                context._drop_scopes()
+                if not isinstance(event, Shutdown):
+                    raise
+
+    def _visit_answer(self, handler: EventHandler, event: Event) -> None:
+        context = self.context
+        context._push_locals()
+        context.extend_locals({"event": event})
+        for entity in listed(handler.handle(event, context), f"the answer of {type(handler).__name__}"):
+            visit(entity, context)
+        context._pop_locals()
 
     def _fail(self, error: BaseException) -> None:
         self.__return_code = 1

@@ -205,8 +205,9 @@ class ExecuteLocal(Action):
         )
         line_format = self._line_format() if self.__output_format is not None else None
         self.__printed = ProcessOutput(label, settings.output, cached=self.__cached_output, line_format=line_format)
-        context.register_event_handler(_ProcessHandler(self, settings))
-        self.__task = loop.create_task(self._run(context, settings))
+        with context.uninterrupted():
+            context.register_event_handler(_ProcessHandler(self, settings))
+            self.__task = loop.create_task(self._run(context, settings))
         return None
 
     def _line_format(self) -> Callable[[str], str]:

@@ -43,15 +43,15 @@ class OpaqueCoroutine(Action):
         if context.asyncio_loop is None:
             raise LaunchError("OpaqueCoroutine can only be executed by a LaunchService that runs")
         arguments = self.__args if self.__ignore_context else [context, *self.__args]
-        task = context.asyncio_loop.create_task(_finish(self.__coroutine(*arguments, **self.__kwargs)))
-        self.__future = task
 
         def cancel(event: Event, context: LaunchContext) -> None:
             task.cancel()
 
-        context.register_event_handler(OnShutdown(on_shutdown=cancel))
+        with context.uninterrupted():
+            task = context.asyncio_loop.create_task(self._run(arguments))
+            self.__future = task
+            context.register_event_handler(OnShutdown(on_shutdown=cancel))
         return None
 
-
-async def _finish(work: Awaitable[None]) -> None:
-    await work
+    async def _run(self, arguments: Iterable[Any]) -> None:
+        await self.__coroutine(*arguments, **self.__kwargs)

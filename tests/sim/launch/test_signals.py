@@ -1,6 +1,8 @@
 """Signals end a launch in every state, and no process remains."""
 
+import asyncio
 import contextlib
+import gc
 import os
 import signal
 import subprocess
@@ -9,7 +11,8 @@ import sys
 import psutil
 import pytest
 
-from gz_course.sim.launch.actions import LogInfo
+from gz_course.sim.launch.actions import ExecuteProcess, LogInfo, OpaqueCoroutine, RegisterEventHandler
+from gz_course.sim.launch.event_handlers import OnProcessStart, OnShutdown
 from gz_course.sim.launch.substitutions import Command
 
 
@@ -90,3 +93,57 @@ def test_a_command_that_is_interrupted_while_it_starts_is_ended(run, monkeypatch
     assert result.lines == ["[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)"]
     (process,) = started
     assert process.returncode == -signal.SIGKILL
+
+
+def interrupt(times=1):
+    for _ in range(times):
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+@pytest.mark.parametrize("action", ["process", "coroutine"])
+def test_what_is_interrupted_while_it_is_scheduled_is_ended(run, monkeypatch, caplog, action):
+    async def forever():
+        await asyncio.Event().wait()
+
+    actions = {
+        "process": ExecuteProcess(cmd=["sleep", "1000"]),
+        "coroutine": OpaqueCoroutine(coroutine=forever, ignore_context=True),
+    }
+    create_task, call_soon = asyncio.BaseEventLoop.create_task, asyncio.BaseEventLoop.call_soon
+    scheduling = []
+
+    def create(loop, work, **options):
+        scheduling.append(work.__qualname__ in ("ExecuteLocal._run", "OpaqueCoroutine._run"))
+        return create_task(loop, work, **options)
+
+    def call(loop, *arguments, **options):
+        if scheduling and scheduling.pop():
+            interrupt()  # the task is made but not yet scheduled
+        return call_soon(loop, *arguments, **options)
+
+    monkeypatch.setattr(asyncio.BaseEventLoop, "create_task", create)
+    monkeypatch.setattr(asyncio.BaseEventLoop, "call_soon", call)
+    result = run(actions[action], LogInfo(msg="not reached"))
+    assert result.code == 0
+    assert "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)" in result.lines
+    assert not any("not reached" in line for line in result.lines)
+    gc.collect()  # which would warn of a coroutine that was never awaited
+    assert caplog.messages == []
+
+
+@pytest.mark.parametrize(("times", "hangs"), [(1, False), (2, False), (2, True)])
+def test_a_second_interruption_during_the_shutdown_keeps_no_process_from_its_end(run, times, hangs):
+    """The handler of the shutdown is visited before the one of the process."""
+
+    def on_shutdown(event, context):
+        interrupt(times)
+        while hangs:
+            pass
+
+    process = ExecuteProcess(cmd=["sleep", "1000"])
+    stops = RegisterEventHandler(OnProcessStart(target_action=process, on_start=lambda event, context: interrupt()))
+    result = run(stops, process, RegisterEventHandler(OnShutdown(on_shutdown=on_shutdown)))
+    assert result.code == 0
+    again = "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT) again, ignoring..."
+    assert result.lines.count(again) == 1
+    assert any("process has died" in line for line in result.lines)
