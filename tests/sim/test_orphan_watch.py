@@ -1,6 +1,5 @@
 """A launch that is killed leaves no orphans."""
 
-import contextlib
 import multiprocessing
 import os
 import signal
@@ -13,6 +12,7 @@ import pytest
 from gz_course.sim import orphan_watch
 from gz_course.sim.launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
 from gz_course.sim.launch.event_handlers import OnProcessStart
+from gz_course.tests.sim.command_line import command_of
 from gz_course.tests.sim.launch.conftest import log_folder, run  # noqa: F401
 
 KILLED = """\
@@ -43,11 +43,7 @@ while True:
 
 
 def all_watchers():
-    found = set()
-    for each in psutil.Process().children():
-        with contextlib.suppress(psutil.Error):  # the child of another test has just ended
-            found |= {each.pid} if "orphan_watch" in each.cmdline() else set()
-    return found
+    return {each.pid for each in psutil.Process().children() if "orphan_watch" in command_of(each)}
 
 
 @pytest.fixture

@@ -87,7 +87,7 @@ def test_all_kinds_of_tests(tmp_path):
         () if entry_points(group="pytest11", name="launch_pytest") else ("-p", "gz_course.sim.launch_pytest.plugin")
     )
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-v", "-p", "no:cacheprovider", *plug_in],
+        [sys.executable, "-m", "pytest", "-rpf", "-p", "no:cacheprovider", *plug_in],
         cwd=tmp_path,
         env={**os.environ, "ROS_LOG_DIR": str(tmp_path / "ros_log")},
         capture_output=True,
@@ -95,8 +95,9 @@ def test_all_kinds_of_tests(tmp_path):
         timeout=600,
     )
     out = done.stdout
-    passed = ["test_yields", "test_coroutine", "test_async_generator", "test_method[1]", "test_method[2]", "test_after"]
-    for name in (*passed, "test_async_generator[shutdown_test]", "test_order"):
-        assert f"{name} PASSED" in out, out + done.stderr
-    assert "test_that_yields_twice FAILED" in out and "must stop iteration after yielding once" in out
+    passed = ["test_yields", "test_coroutine", "test_async_generator", "test_after", "test_order"]
+    passed += ["test_async_generator[shutdown_test]", "TestInAClass::test_method[1]", "TestInAClass::test_method[2]"]
+    for name in passed:
+        assert f"PASSED test_all.py::{name}\n" in out, out + done.stderr
+    assert "FAILED test_all.py::test_that_yields_twice" in out and "must stop iteration after yielding once" in out
     assert "AssertionError: is told" in out and "2 failed, 8 passed" in out

@@ -14,6 +14,7 @@ from gz_course.sim.launch import LaunchContext
 from gz_course.sim.launch.launch_description_sources import get_launch_description_from_python_launch_file
 from gz_course.sim.launch_ros.substitutions import FindPackageShare
 from gz_course.sim.prefix import local_setup
+from gz_course.tests.sim.command_line import command_of
 from gz_course.tests.warm_process import WarmPopen
 
 SHARE = Path(local_setup.PREFIX) / "share"
@@ -113,7 +114,7 @@ def test_gazebo_can_be_started_with_a_prefix(start):
     process = start(*prefix, "ros_gz_sim", "gz_sim.launch.py", "gz_args:=-s empty.sdf")
     lines_until(process, "is paused")
     children = psutil.Process(process.pid).children()
-    (gazebo,) = [each for each in children if "orphan_watch" not in each.cmdline()]
+    (gazebo,) = [each for each in children if "orphan_watch" not in command_of(each)]
     assert gazebo.environ()["GZ_PARTITION"] == "other"
 
 

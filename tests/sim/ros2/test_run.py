@@ -8,6 +8,8 @@ import sys
 import psutil
 import pytest
 
+from gz_course.tests.sim.command_line import command_of
+
 # Prints the signals it receives, after its own child has printed them.
 LISTENER = f"""\
 #!{sys.executable}
@@ -96,7 +98,7 @@ def test_a_killed_ros2_leaves_no_child(start, workspace):
     command = start("run", "my_robot", "listener", environment=workspace("listener", LISTENER))
     command.wait_for("up")
     family = psutil.Process(command.process.pid).children(recursive=True)
-    left = [each for each in family if "orphan_watch" not in each.cmdline()]
+    left = [each for each in family if "orphan_watch" not in command_of(each)]
     assert len(left) == 2
     command.process.kill()
     assert psutil.wait_procs(left, timeout=120)[1] == []

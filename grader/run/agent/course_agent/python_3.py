@@ -311,14 +311,16 @@ def _tell(message: dict[str, Any]) -> None:
 
 def _program(pid: int) -> str:
     """Return the program a process runs; empty for a Python that ignores its environment, and thereby the agent."""
+    command = b""
     try:
-        name = os.path.basename(os.readlink(f"/proc/{pid}/exe"))  # noqa: PTH115, PTH119 - pathlib would cost a start
-        with open(f"/proc/{pid}/cmdline", "rb") as file:  # noqa: PTH123
-            words = file.read().decode(errors="replace").split("\0")[1:]
-    except OSError:
+        while not command:  # for a moment after Popen returned, the process has no command line yet
+            name = os.path.basename(os.readlink(f"/proc/{pid}/exe"))  # noqa: PTH115, PTH119 - pathlib would cost a start
+            with open(f"/proc/{pid}/cmdline", "rb") as file:  # noqa: PTH123
+                command = file.read()
+    except OSError:  # it has ended
         return ""
     if name.startswith("python"):
-        for word in words:
+        for word in command.decode(errors="replace").split("\0")[1:]:
             if not word.startswith("-") or word in ("-c", "-m"):
                 break
             if not word.startswith("--") and set("IES") & set(word):
