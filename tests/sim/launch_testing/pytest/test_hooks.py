@@ -44,7 +44,7 @@ def test_files_with_and_without_a_mark(tmp_path):
     # An environment that was set up before the plug-in came does not load it by itself.
     plug_in = () if entry_points(group="pytest11", name="launch_testing") else ("-p", HOOKS)
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-v", "-p", "no:cacheprovider", *plug_in, "--continue-on-collection-errors",
+        [sys.executable, "-m", "pytest", "-rpf", "-p", "no:cacheprovider", *plug_in, "--continue-on-collection-errors",
          "--launch-args", "a:=1", "--", "."],
         cwd=tmp_path,
         env={**os.environ, "ROS_LOG_DIR": str(tmp_path / "ros_log")},
@@ -53,10 +53,10 @@ def test_files_with_and_without_a_mark(tmp_path):
         timeout=600,
     )  # fmt: skip
     out = done.stdout
-    assert "right_launch_test.py::right_launch_test PASSED" in out, out + done.stderr
-    assert "wrong_ros_test.py::wrong_ros_test FAILED" in out
+    assert "PASSED right_launch_test.py::right_launch_test" in out, out + done.stderr
+    assert "FAILED wrong_ros_test.py::wrong_ros_test" in out
     assert "FAIL: TestAfter.test_end" in out and "AssertionError: Proc sleeper-1 exited with code -2" in out
-    assert "test_plain.py::test_plain PASSED" in out
+    assert "PASSED test_plain.py::test_plain" in out
     assert out.count("ZeroDivisionError") and "1 failed, 2 passed, 1 skipped" in out and "1 error" in out
 
 
