@@ -160,7 +160,9 @@ class LaunchRunLoop(RunLoop):
         patience = Patience(self._processes.clock, END_PATIENCE)
         out_of_reach: list[str] = []
         while self._processes.running and not patience.over():
-            out_of_reach = self._out_of_reach()  # when the launch ends, so does the sandbox, with all that is left
+            found = self._out_of_reach()
+            if any(each.alive for each in self._processes.participants[:1]):
+                out_of_reach = found  # when the launch ends, so does the sandbox, with all that is left
             self._processes.wait(0.02)
             self._pace.everything_arrived()
             self._ros.pump()

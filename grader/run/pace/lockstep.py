@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.run.agent.course_agent.executor_monitor import HOUSEKEEPING
@@ -64,6 +65,7 @@ class LockStep(RealTime):
         self._failures = 0
         self._copies = 0  # copies of the message just sent, which was lost
         self._left: tuple[int, ...] = ()  # the layout in which a subscription is gone and its process is not
+        self._gone: set[int] = set()  # numbers of the processes that were seen to have gone
 
     def await_ready(self) -> bool:
         """Wait as in real time; a node that does not become ready is paced to the wall clock from the start."""
@@ -93,9 +95,19 @@ class LockStep(RealTime):
         for each in self._participants if self._holding and not self._free else []:
             if each.progress and not each.progress.holding:
                 each.tell({"hold": True})
-        if any(p.gone for p in self.processes.participants):
-            self._write_off()
+        if gone := {p.number for p in self.processes.participants if p.gone}:
+            self._write_off(self._awaited(gone - self._gone))
+            self._gone = gone
         return True
+
+    def _awaited(self, just_gone: set[int]) -> set[str]:
+        """Return the topics on which messages may still be on their way to somebody who is there.
+
+        If one of their subscribers has just gone, it is not known to whom the messages were sent.
+        """
+        everybody = self.processes.participants
+        lost = {topic for p in everybody if p.number in just_gone for topic in p.heard}
+        return {topic for p in everybody if not p.gone for topic in p.heard} - lost
 
     def _tell(self, order: dict[str, Any]) -> None:
         for each in self.processes.participants:
@@ -344,11 +356,12 @@ class LockStep(RealTime):
             due[name] = max(0, due[name] - count)
         return due
 
-    def _write_off(self) -> None:
-        """Count as lost what was not taken by now, because its reader is gone or does not respond."""
+    def _write_off(self, awaited: Collection[str] = ()) -> None:
+        """Count as lost what was not taken by now, but for `awaited`: its reader is gone or does not respond."""
         taken = self._total("taken")
         for topic, count in self._due_to_be_taken().items():
-            self._untaken[topic] = max(self._untaken[topic], count - taken[topic])
+            if topic not in awaited:
+                self._untaken[topic] = max(self._untaken[topic], count - taken[topic])
 
     def _take_last_words(self) -> None:
         """Wait for what the processes published just before they ended."""

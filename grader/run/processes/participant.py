@@ -40,6 +40,7 @@ class Participant:
         self.progress: Progress | None = None
         self.gone = False
         self.joined = False  # whether a report of it had endpoints, which may be gone again
+        self.heard: set[str] = set()  # topics to which it has ever subscribed
         self.follows = True  # False: no reports are expected of it
         self.uses_ros = False  # whether it has imported rclpy
         self.waits = False  # whether it only waits, for its children or for events
@@ -149,6 +150,7 @@ class Participant:
             self.progress = replace(progress, held=0) if self._vain > MOST_IN_VAIN else progress
             self.looking &= not progress.idle
             self.joined |= bool(progress.endpoints)
+            self.heard.update(e.topic for e in progress.endpoints if e.kind == "subscription")
             return
         try:
             message = json.loads(data)

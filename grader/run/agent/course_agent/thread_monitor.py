@@ -37,6 +37,9 @@ POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at mos
 # taken to wait unseen. On a busy machine whoever holds a lock that it needs may get no processor for long.
 QUIET = 0.5
 LONGEST_LOOK = 0.1  # [s] of that which count between two looks; more is a machine that stood still
+# [s] between two looks at least. On a busy machine several orders to look come at once, and two looks at one moment show
+# no thread running: not the ones either that only wait for Python's lock, which is passed on every 5 ms.
+SHORTEST_LOOK = 0.02
 
 # The clocks and the sleep of the machine, for the agent itself.
 monotonic, sleep, time_ns = time.monotonic, time.sleep, time.time_ns
@@ -204,6 +207,8 @@ class ThreadMonitor:
             yield
             return
         self.calling.add(number)
+        if number not in self._working:  # it had been taken to wait unseen
+            self.resume()
         try:
             yield
         finally:
@@ -243,13 +248,15 @@ class ThreadMonitor:
         may wait for it, such as for a lock that it holds: on a busy machine that takes long. For the same reason
         nobody is taken to wait before `QUIET` while a node is prepared.
         """
+        now, before = monotonic(), self._looked
+        if now - before < SHORTEST_LOOK:
+            return
         said = {}
         for ident, kernel in native.items():
             number = self._numbers.get(ident)
             if number is not None and number in self._working:
                 said[number] = (kernel, _scheduled(kernel))
         quiet = all(text and self._elsewhere.get(number) == (kernel, text) for number, (kernel, text) in said.items())
-        now, before = monotonic(), self._looked
         self._elsewhere, self._looked = said, now
         self._quiet += min(now - before, LONGEST_LOOK) if quiet else 0.0
         if quiet and (self._quiet >= QUIET or not self._preparing & said.keys()):

@@ -7,17 +7,18 @@ ASK = """
 import threading
 from pathlib import Path
 from types import SimpleNamespace
-from gz_course.grader.run.agent.course_agent import python_3
+from gz_course.grader.run.agent.course_agent import python_3, thread_monitor
 from gz_course.grader.run.agent.course_agent.thread_monitor import ThreadMonitor
 
 asked = []
+thread_monitor.SHORTEST_LOOK = 0.0
 
 def answer():
     status = Path(f"/proc/self/task/{asking}/stat")
     while not asked or status.read_text().rpartition(")")[2].split()[0] != "S":
         pass
-    monitor.look_for_strays({threading.main_thread().ident: asking})
-    monitor.look_for_strays({threading.main_thread().ident: asking})
+    for _ in range(2):
+        monitor.look_for_strays({threading.main_thread().ident: asking})
     idle.append(monitor.idle)
     grader_requests.hear({"answer": {"done": True}})
 

@@ -188,3 +188,69 @@ def test_nobody_is_waited_for_when_the_last_node_has_become_another_program(play
         """,
     )
     assert played.pace.paced_ticks == 0
+
+
+TOLD = {"kept": {"/told std_msgs/msg/String": 1}, "endpoints": [HELLO | {"topic": "/told"}]}
+HEARS = {"asked": {"/told std_msgs/msg/String": 1}, "endpoints": [HELLO | {"topic": "/told", "kind": "subscription"}]}
+
+
+class OneHasGone(Leaving):
+    """Three processes: one has gone, one has published a message that is kept, the third asks for that."""
+
+    def __init__(self, gone):
+        super().__init__(-1, ends)
+        self.participants, self.theirs = [], []
+        for number, reports in enumerate((gone, [TOLD], [HEARS])):
+            ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            self.participants.append(Participant(ours, number, lambda *_: None))
+            self.theirs.append(theirs)
+            for each in reports:
+                self.report(number, **each)
+        self.theirs[0].shutdown(socket.SHUT_RDWR)
+        self.participants[0].read()
+        self.clock = SimpleNamespace(now=lambda: 0.0)
+
+    def report(self, number, **what):
+        self.theirs[number].send(json.dumps(REPORT | {"holding": True} | what).encode())
+        self.participants[number].read()
+
+    @property
+    def followed(self):
+        return [each for each in self.participants if each.progress and not each.gone]
+
+    @property
+    def endpoints(self):
+        return tuple(e for each in self.followed for e in each.progress.endpoints)
+
+    @property
+    def layout(self):
+        return tuple(id(each.progress and each.progress.endpoints) for each in self.participants)
+
+    def publishes(self, topic):
+        return None
+
+    def close(self):
+        for each in (*self.participants, *self.theirs):
+            each.close()
+
+
+@pytest.mark.parametrize(
+    ("gone", "is_lost"),
+    [
+        pytest.param([], False, id="no node"),
+        pytest.param([{"endpoints": [HELLO]}], False, id="another topic"),
+        pytest.param([HEARS, {}], True, id="the same topic"),  # perhaps the message was for the one that has gone
+    ],
+)
+def test_what_is_on_its_way_to_somebody_who_is_there_is_waited_for(monkeypatch, gone, is_lost):
+    processes = OneHasGone(gone)
+    try:
+        pace = LockStep(processes, processes, holding=True)
+        monkeypatch.setattr(pace, "await_matches", lambda: None)
+        assert pace._settled() is is_lost
+        processes.report(1, **TOLD | {"endpoints": [HELLO | {"topic": "/told"}] * 2})
+        assert pace._settled() is is_lost, "the layout has changed"
+        processes.report(2, taken={"/told": 1}, **HEARS)
+        assert pace._settled()
+    finally:
+        processes.close()

@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from gz_course.grader.run.agent.course_agent import thread_monitor
-from gz_course.grader.run.agent.course_agent.thread_monitor import QUIET, ThreadMonitor
+from gz_course.grader.run.agent.course_agent.thread_monitor import QUIET, SHORTEST_LOOK, ThreadMonitor
 
 # `usleep` of the C library is a call that is not watched; the thread does not run meanwhile.
 STARTS = """
@@ -79,7 +79,40 @@ def test_who_prepares_a_node_waits_unseen_once_it_has_not_run_for_long(clock, st
         assert not threads.idle
     clock[0] += 2 * step
     threads.look_for_strays(native)
-    threads.look_for_strays(native)
     assert threads.idle
     done.set()
+    thread.join()
+
+
+def test_looks_at_the_same_moment_are_one_look(clock):
+    """A process that gets no processor for a while finds several orders to look at once."""
+    threads, done, native = ThreadMonitor(), threading.Lock(), {}
+    number, ready, at_work = threads.expect(), threading.Event(), threading.Event()
+
+    def work():
+        threads.enter(number)
+        native[threading.get_ident()] = threading.get_native_id()
+        ready.set()
+        done.acquire()
+        with threads.at_work():
+            at_work.set()
+            done.acquire()
+
+    done.acquire()
+    thread = threading.Thread(target=work, daemon=True)
+    thread.start()
+    ready.wait()
+    while not thread_monitor._scheduled(*native.values()):
+        pass
+    for _ in range(5):
+        threads.look_for_strays(native)
+        clock[0] += SHORTEST_LOOK / 10
+    assert not threads.idle
+    clock[0] += SHORTEST_LOOK
+    threads.look_for_strays(native)
+    assert threads.idle, "it waits unseen"
+    done.release()
+    at_work.wait()
+    assert not threads.idle, "who is known to work is counted again"
+    done.release()
     thread.join()
