@@ -37,8 +37,8 @@ POLL_PERIOD = 0.01  # [s] of simulated time that the next such poll takes at mos
 # taken to wait unseen. On a busy machine whoever holds a lock that it needs may get no processor for long.
 QUIET = 0.5
 LONGEST_LOOK = 0.1  # [s] of that which count between two looks; more is a machine that stood still
-# [s] between two looks at least. On a busy machine several orders to look come at once, and two looks at one moment show
-# no thread running: not the ones either that only wait for Python's lock, which is passed on every 5 ms.
+# [s] between two looks at least. On a busy machine several orders to look come at once. Two looks at one moment would
+# show nobody running, not even threads that only wait for Python's lock, which is passed on every 5 ms.
 SHORTEST_LOOK = 0.02
 
 # The clocks and the sleep of the machine, for the agent itself.
