@@ -65,7 +65,7 @@ class LockStep(RealTime):
         self._failures = 0
         self._copies = 0  # copies of the message just sent, which was lost
         self._left: tuple[int, ...] = ()  # the layout in which a subscription is gone and its process is not
-        self._gone: set[int] = set()  # numbers of the processes that were seen to have gone
+        self._gone: set[int] = set()  # numbers of the processes with nodes that were seen to have gone
 
     def await_ready(self) -> bool:
         """Wait as in real time; a node that does not become ready is paced to the wall clock from the start."""
@@ -95,7 +95,7 @@ class LockStep(RealTime):
         for each in self._participants if self._holding and not self._free else []:
             if each.progress and not each.progress.holding:
                 each.tell({"hold": True})
-        if gone := {p.number for p in self.processes.participants if p.gone}:
+        if gone := {p.number for p in self.processes.participants if p.gone and p.progress}:
             self._write_off(self._awaited(gone - self._gone))
             self._gone = gone
         return True

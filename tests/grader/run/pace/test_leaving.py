@@ -254,3 +254,19 @@ def test_what_is_on_its_way_to_somebody_who_is_there_is_waited_for(monkeypatch, 
         assert pace._settled()
     finally:
         processes.close()
+
+
+@pytest.mark.parametrize(("gone", "is_lost"), [([], False), ([{"endpoints": [HELLO]}], True)])
+def test_a_request_is_not_lost_because_a_process_without_a_node_has_ended(monkeypatch, gone, is_lost):
+    """One with a node may have been the server, which no endpoint tells."""
+    processes = OneHasGone(gone)
+    try:
+        pace = LockStep(processes, processes, holding=True)
+        monkeypatch.setattr(pace, "await_matches", lambda: None)
+        processes.report(1, endpoints=[HELLO], delivered={"request /told": 1})
+        processes.report(2, endpoints=[HELLO])
+        assert pace._settled() is is_lost
+        processes.report(2, endpoints=[HELLO], taken={"request /told": 1})
+        assert pace._settled()
+    finally:
+        processes.close()
