@@ -61,6 +61,15 @@ class LaunchFile:
         return {name: values for name, values in found.items() if name not in bound}
 
     @cached_property
+    def owners(self) -> dict[int, ast.FunctionDef]:
+        """The innermost function around each call, by the id of the call."""
+        found: dict[int, ast.FunctionDef] = {}
+        for node in self.nodes:  # outer functions come before inner ones
+            if isinstance(node, ast.FunctionDef):
+                found |= {id(each): node for each in walk(node) if isinstance(each, ast.Call)}
+        return found
+
+    @cached_property
     def used(self) -> set[str]:
         """Names that are read anywhere."""
         return {each.id for each in self.nodes if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)}

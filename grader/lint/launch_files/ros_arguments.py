@@ -125,10 +125,8 @@ def quotes_in_words(file: LaunchFile) -> Iterator[Place]:
 
 def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` for a program of the submission that declares parameters of other names only."""
-    owners = _functions_of(file)
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
-        given = argument(call, "cmd", 0)
-        words = list(_words(file, given, owners.get(id(call), file.tree), DEEPEST)) if given is not None else []
+        words = command_words(file, call)
         names = {text(each).rpartition("/")[2] for word in words if word for each in walk(word)}
         program = next(iter(sorted(names & nodes.keys())), "")
         known = declared_parameters(nodes[program]) if program else set()
@@ -159,7 +157,7 @@ def command_words(file: LaunchFile, call: ast.Call) -> list[ast.expr | None]:
     given = argument(call, "arguments") if last_name(call.func).endswith("Node") else argument(call, "cmd", 0)
     if given is None:
         return []
-    return list(_words(file, given, _functions_of(file).get(id(call), file.tree), DEEPEST))
+    return list(_words(file, given, file.owners.get(id(call), file.tree), DEEPEST))
 
 
 def files_without_namespace(file: LaunchFile, others: Mapping[str, bytes]) -> Iterator[Place]:
@@ -178,15 +176,6 @@ def files_without_namespace(file: LaunchFile, others: Mapping[str, bytes]) -> It
                     f"namespace (__ns), so it is another node and reads none of them: begin the file with /**: instead "
                     f"of {owner[1]}:, which means every node",
                 )
-
-
-def _functions_of(file: LaunchFile) -> dict[int, ast.AST]:
-    """Return the innermost function around each call."""
-    found: dict[int, ast.AST] = {}
-    for node in file.nodes:  # outer functions come before inner ones
-        if isinstance(node, ast.FunctionDef):
-            found |= {id(each): node for each in walk(node) if isinstance(each, ast.Call)}
-    return found
 
 
 def _words(file: LaunchFile, given: ast.expr, scope: ast.AST, depth: int) -> Iterator[ast.expr | None]:

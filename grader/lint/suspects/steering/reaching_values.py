@@ -115,10 +115,9 @@ def _paths(body: list[ast.stmt], above: Path) -> Iterator[tuple[ast.stmt, Path]]
 
 def _targets(node: ast.stmt) -> list[ast.expr]:
     given = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
-    parts = [
+    return [
         part for each in given if each is not None for part in (each.elts if isinstance(each, ast.Tuple) else [each])
     ]
-    return parts
 
 
 def _holds(statement: ast.stmt, name: ast.expr) -> bool:
