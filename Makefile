@@ -99,7 +99,6 @@ fuzz: .venv/with-tools
 lint: .venv/with-tools
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	@mkdir -p build/mypy && ln -sfn ../.. build/mypy/gz_course
 	$(BIN)/mypy
 
 # Not `runs`: it holds scores and the files that `course reset` has kept.
