@@ -8,12 +8,11 @@ import pkgutil
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
-NAMESPACE = "gz_course."  # an import name of ours is this and the path from the root
+from gz_course.tests.import_arrows import NAMESPACE, ROOT, below, cycles, imports, modules, place, reachable, tree
+
 PUBLIC_NAMES = {path.name for path in (ROOT / "public").iterdir() if path.is_dir()} - {"gz_course", "__pycache__"}
 NO_CODE = {"__pycache__", "interfaces"}
 PACKAGES = {path.name for path in (ROOT / "sim").iterdir() if path.is_dir()} - NO_CODE
@@ -107,72 +106,9 @@ ALLOWED = {
     AGENT: (AGENT,),
 }
 FOR_ALL = ("sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
+# A module that starts a program and imports how: what the program itself imports is another process.
+PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
 NO_ROS_MESSAGES = ("sim/gz", "sim/view", "grader/score", "grader/report")
-
-
-@functools.cache
-def modules():
-    """Every module of ours: its path from the root, without `.py` and `/__init__.py` -> file.
-
-    Launch files and templates are not modules: they are written like a student's, with public names.
-    """
-    found = {}
-    for path in sorted(each for top in ("sim", "grader") for each in (ROOT / top).rglob("*.py")):
-        parts = path.relative_to(ROOT).with_suffix("").parts
-        if "template" in parts or parts[:3] == ("sim", "prefix", "share"):
-            continue
-        found["/".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
-
-
-def tree(name):
-    return ast.parse(modules()[name].read_text())
-
-
-def place(dotted):
-    """Return where an imported name lies: `sim/gz/sim` for `gz_course.sim.gz.sim`, else `rclpy/node`."""
-    return dotted.removeprefix(NAMESPACE).replace(".", "/")
-
-
-def last_name(node):
-    """Return `c` of `c` and of `a.b.c`, and nothing of another expression."""
-    return getattr(node, "attr", getattr(node, "id", ""))
-
-
-def is_type_checking(node):
-    return isinstance(node, ast.If) and last_name(node.test) == "TYPE_CHECKING"
-
-
-@functools.cache
-def imports(name, *, with_types=True):
-    """Return the places of everything a module imports, wherever in it; also by `import_module("literal")`."""
-    found = set()
-    package = name if modules()[name].name == "__init__.py" else name.rpartition("/")[0]
-    text = modules()[name].read_text()
-    by_call = "import_module" in text or "__import__" in text  # else no expression imports anything
-
-    def walk(node):
-        if isinstance(node, ast.Import):
-            found.update(place(alias.name) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = place(node.module or "")
-            if node.level:
-                above = package.split("/")[: len(package.split("/")) - node.level + 1]
-                base = "/".join([*above, *(node.module or "").split(".")]).rstrip("/")
-            found.update({base} - {"sim"})  # the package of all packages: what is meant is in the names
-            found.update(f"{base}/{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Call) and last_name(node.func) in ("import_module", "__import__"):
-            found.update(place(a.value) for a in node.args[:1] if isinstance(a, ast.Constant))
-        for child in ast.iter_child_nodes(node):
-            if (by_call or not isinstance(child, ast.expr)) and (with_types or not is_type_checking(child)):
-                walk(child)
-
-    walk(tree(name))
-    return found
-
-
-def below(name, *tops):
-    return f"{name}/".startswith(tuple(f"{top}/" for top in tops))
 
 
 @functools.cache
@@ -248,16 +184,19 @@ def test_one_module_finds_the_nearest_name():
     assert users == ["grader/exercise/solution_diff", "sim/did_you_mean"], "the former prints differences"
 
 
-def reachable(name):
-    """Modules of ours that a module imports, directly or not, imports for types aside."""
-    seen, todo = set(), [name]
-    while todo:
-        here = todo.pop()
-        if here in seen or here not in modules():
-            continue
-        seen.add(here)
-        todo += imports(here, with_types=False)
-    return seen
+def test_no_modules_import_each_other():
+    arrows = {name: imports(name, with_types=False, doors=False) & modules().keys() for name in modules()}
+    for module, program in PROGRAMS.items():
+        arrows[module] -= {program}
+    nobody_offends(f"these import each other, directly or not: {', '.join(group)}" for group in cycles(arrows))
+
+
+def test_a_cycle_is_seen():
+    assert cycles({"a": {"b"}, "b": {"c", "d"}, "c": {"a"}, "d": {"e"}, "e": {"d"}, "f": {"a", "e"}}) == [
+        ["d", "e"],
+        ["a", "b", "c"],
+    ]
+    assert cycles({"a": {"b", "c"}, "b": {"d"}, "c": {"d"}, "d": set()}) == []
 
 
 def test_scoring_and_reports_reach_no_running_part_through_others():

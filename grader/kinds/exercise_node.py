@@ -7,25 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.errors import ManifestError
-
 if TYPE_CHECKING:
-    from gz_course.grader.exercise import Exercise
     from gz_course.grader.record.reading import Recording
     from gz_course.grader.run.run_loop import RunLoop
     from gz_course.grader.score.diagnosis import Diagnosis
-
-EXERCISE_NODE = "given_node.py"  # beside the manifest
-
-
-def exercise_node(exercise: Exercise) -> dict[str, bytes]:
-    """Return the node that comes with an exercise, as files for the sandbox. Raises ManifestError if there is none."""
-    try:
-        return {EXERCISE_NODE: (exercise.folder / EXERCISE_NODE).read_bytes()}
-    except OSError as error:
-        raise ManifestError(
-            f"{exercise.folder} has no {EXERCISE_NODE}, the exercise's own node: {error.strerror}"
-        ) from None
 
 
 def run_loop() -> type[RunLoop]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gz_course.grader.errors import ManifestError
-from gz_course.grader.kinds.exercise_node import EXERCISE_NODE
+from gz_course.grader.kinds.given_node import EXERCISE_NODE
 from gz_course.grader.record.reading import GIVEN_LOG
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.run.graph_snapshot import both_graphs

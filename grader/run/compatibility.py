@@ -9,7 +9,7 @@ from __future__ import annotations
 from importlib.metadata import version
 
 from gz_course.grader.errors import InfrastructureError
-from gz_course.grader.run.agent.course_agent import python_3, rclpy_7_1, rclpy_7_1_actions
+from gz_course.grader.run.agent.course_agent import python_3, python_3_threads, rclpy_7_1, rclpy_7_1_actions
 from gz_course.grader.run.agent.course_agent.self_check import misfits
 
 RCLPY = "ros-jazzy-rclpy"
@@ -19,7 +19,7 @@ def check_compatibility() -> None:
     """Raise InfrastructureError naming the first item of rclpy or Python that is not as the patches expect it."""
     installed = version(RCLPY)
     relied_upon = rclpy_7_1.RELIED_UPON | rclpy_7_1_actions.RELIED_UPON
-    found = misfits(relied_upon) + misfits(python_3.SUBPROCESS | python_3.THREADS)
+    found = misfits(relied_upon) + misfits(python_3.SUBPROCESS | python_3_threads.THREADS)
     if not found and not installed.startswith(f"{rclpy_7_1.VERSION}."):
         found = [f"rclpy has the version {installed}, and {rclpy_7_1.VERSION} is expected"]
     if found:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from gz_course.sim.launch.errors import locate, place_of_caller
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity, listed
@@ -75,28 +75,24 @@ class LaunchDescription(LaunchDescriptionEntity):
         self, conditional_inclusion: bool = False, *, only_search_local: bool = False
     ) -> list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]]:
         """Return the declared arguments, each with its chain of includes, the innermost last."""
-        from gz_course.sim.launch.actions import (
-            DeclareLaunchArgument,
-            IncludeLaunchDescription,
-            ResetLaunchConfigurations,
-        )
-
         found: list[tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]] = []
 
         def search(
             entities: Iterable[LaunchDescriptionEntity], conditional: bool, chain: list[IncludeLaunchDescription]
         ) -> None:
             for entity in entities:
-                if isinstance(entity, DeclareLaunchArgument):
-                    entity._conditionally_included |= conditional or entity.condition is not None
-                    found.append((entity, chain))
-                if isinstance(entity, ResetLaunchConfigurations):
+                if entity.declares_argument:
+                    argument = cast("DeclareLaunchArgument", entity)
+                    argument._conditionally_included |= conditional or argument.condition is not None
+                    found.append((argument, chain))
+                if entity.hides_arguments:
                     return  # the following entities cannot see arguments from outside
                 deeper = chain
-                if isinstance(entity, IncludeLaunchDescription):
-                    if only_search_local or entity.leads_back_into(chain):
+                if entity.includes_description:
+                    include = cast("IncludeLaunchDescription", entity)
+                    if only_search_local or include.leads_back_into(chain):
                         continue
-                    deeper = [*chain, entity]
+                    deeper = [*chain, include]
                 search(entity.describe_sub_entities(), conditional, deeper)
                 for _, group in entity.describe_conditional_sub_entities():
                     search(group, True, deeper)

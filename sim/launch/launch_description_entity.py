@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gz_course.sim.launch.errors import LaunchError
 
@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 
 
 class LaunchDescriptionEntity:
-    """An action or a launch description."""
+    """An action or a launch description.
+
+    The class variables tell whoever looks for the arguments of a launch description what an entity is.
+    """
+
+    declares_argument: ClassVar[bool] = False
+    includes_description: ClassVar[bool] = False
+    hides_arguments: ClassVar[bool] = False  # those from outside, from the entities that follow
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Return the entities to be visited next."""

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileError
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
-from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.utilities import (
     describe_substitutions,
     normalize_to_list_of_substitutions,
@@ -45,7 +44,7 @@ class LaunchDescriptionSource:
     @property
     def has_plain_location(self) -> bool:
         """Return whether the path is plain text, without other substitutions."""
-        from gz_course.sim.launch.substitutions import TextSubstitution
+        from gz_course.sim.launch.substitutions.text_substitution import TextSubstitution
 
         return bool(self.__location) and all(isinstance(part, TextSubstitution) for part in self.__location)
 
@@ -98,20 +97,3 @@ class LaunchDescriptionSource:
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.location})"
-
-
-def as_source(source: Any) -> LaunchDescriptionSource:
-    """Return a source for an argument of IncludeLaunchDescription: a source or the path of a launch file."""
-    if isinstance(source, LaunchDescriptionSource):
-        return source
-    from gz_course.sim.launch.launch_description import LaunchDescription
-    from gz_course.sim.launch.launch_description_sources import AnyLaunchDescriptionSource
-
-    if isinstance(source, LaunchDescription):
-        return LaunchDescriptionSource(source)
-    if isinstance(source, str | os.PathLike | Substitution | list | tuple):
-        return AnyLaunchDescriptionSource(source)
-    raise TypeError(
-        f"IncludeLaunchDescription wants PythonLaunchDescriptionSource(path), not {source!r} of type "
-        f"{type(source).__name__}"
-    )

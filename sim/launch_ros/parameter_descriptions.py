@@ -14,10 +14,10 @@ from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from gz_course.sim.launch_ros.parameter_values import Value, check_type, check_value, coerce, evaluate_value
+from gz_course.sim.launch_ros.parameter_values import TypedValue, Value, check_type, check_value, coerce, evaluate_value
 
 
-class ParameterValue:
+class ParameterValue(TypedValue):
     """A value of a given type: `value_type` is str, int, float, bool or List[...] of one of them.
 
     Without a type it is the value itself. A substitution, such as `Command`, is converted to the type; its text is

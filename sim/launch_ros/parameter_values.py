@@ -30,14 +30,20 @@ class ParameterTypeError(LaunchError, TypeError):
     """A value that cannot be the value of a parameter."""
 
 
+class TypedValue:
+    """A value that has a type of its own, as a `ParameterValue` has."""
+
+    def evaluate(self, context: LaunchContext, name: str = "") -> Value:
+        """Return the value for the node. Raises ParameterTypeError (a TypeError)."""
+        raise NotImplementedError
+
+
 def check_value(name: str, value: Any) -> None:
     """Raise ParameterTypeError for a value that cannot be a parameter, as far as that is known before the launch."""
-    from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
-
     if isinstance(value, Mapping):
         for key, each in value.items():
             check_value(f"{name}.{key}", each)
-    elif isinstance(value, (ParameterValue, Substitution, os.PathLike, *SCALARS)):
+    elif isinstance(value, (TypedValue, Substitution, os.PathLike, *SCALARS)):
         return
     elif isinstance(value, Sequence) and not isinstance(value, bytes):
         if not any(isinstance(item, Substitution | list | tuple) for item in value):
@@ -69,9 +75,7 @@ def check_type(value: Any, value_type: Any) -> None:
 
 def evaluate_value(context: LaunchContext, name: str, value: Any) -> Value:
     """Return the value for the node. Raises ParameterTypeError."""
-    from gz_course.sim.launch_ros.parameter_descriptions import ParameterValue
-
-    if isinstance(value, ParameterValue):
+    if isinstance(value, TypedValue):
         return value.evaluate(context, name)
     if isinstance(value, SCALARS):
         return value

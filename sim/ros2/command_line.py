@@ -12,20 +12,18 @@ from __future__ import annotations
 import argparse
 import ast
 import contextlib
-import importlib
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.prefix import local_setup
 from gz_course.sim.ros2 import completion, interruption
+from gz_course.sim.ros2.command_files import COMMANDS, found, load
 from gz_course.sim.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros2.hand_over import hand_over
 
-COMMANDS = Path(__file__).parent / "command"
 _INTERRUPTED = 2
 _GRAPH = "gz_course.sim.ros2.graph"  # imported by verbs that have a node
 
@@ -82,12 +80,6 @@ def _explained(arguments: list[str]) -> int:
         return 1
 
 
-def found(folder: Path) -> dict[str, Path]:
-    """Return the files or folders of the commands, or of the verbs of a command, sorted by name."""
-    paths = {path.stem: path for path in folder.iterdir() if path.suffix == ".py" or path.is_dir()}
-    return {name: paths[name] for name in sorted(paths) if not name.startswith("_")}
-
-
 def run(folder: Path, program: str, words: list[str]) -> int:
     """Run one of the commands in `folder`; `program` is what the user has typed so far."""
     known = found(folder)
@@ -118,13 +110,6 @@ def _unrecognized(parser: argparse.ArgumentParser, words: list[str]) -> str:
     options = [option for action in parser._actions for option in action.option_strings]
     hint = did_you_mean(words[0].partition("=")[0], options) if words[0].startswith("-") else ""
     return f"unrecognized arguments: {' '.join(words)}{hint}"
-
-
-def load(path: Path) -> Any:
-    """Return the module of a command or verb, with its `main` and `add_arguments`."""
-    return importlib.import_module(
-        ".".join([__package__ or "", *path.relative_to(COMMANDS.parent).with_suffix("").parts])
-    )
 
 
 def _menu(folder: Path, program: str, known: dict[str, Path]) -> argparse.ArgumentParser:

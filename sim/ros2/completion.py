@@ -16,6 +16,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from gz_course.sim.ros2.command_files import COMMANDS, found, load
 from gz_course.sim.ros2.errors import CommandError
 
 Given = Mapping[str, Any]
@@ -26,8 +27,6 @@ def complete(**options: Any) -> None:
     """Print the completions of the word at the cursor and end the process; `options` are those of argcomplete."""
     import argcomplete
 
-    from gz_course.sim.ros2.command_line import COMMANDS
-
     words = argcomplete.split_line(os.environ["COMP_LINE"], int(os.environ["COMP_POINT"]))[3]
     parser = argparse.ArgumentParser(prog="ros2")
     _add_verbs(parser, COMMANDS, words[int(os.environ["_ARGCOMPLETE"]) :])
@@ -37,8 +36,6 @@ def complete(**options: Any) -> None:
 
 def _add_verbs(parser: argparse.ArgumentParser, folder: Path, words: list[str]) -> None:
     """Add the commands or verbs of a folder, with arguments only for the one named by the first of `words`."""
-    from gz_course.sim.ros2.command_line import found, load
-
     known = found(folder)
     if words and words[0] not in known:
         return

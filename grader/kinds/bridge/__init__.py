@@ -11,7 +11,8 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from gz_course.grader.kinds.exercise_node import EXERCISE_NODE, diagnosis, exercise_node, run_loop
+from gz_course.grader.kinds.exercise_node import diagnosis, run_loop
+from gz_course.grader.kinds.given_node import EXERCISE_NODE, exercise_node
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.printable import shown

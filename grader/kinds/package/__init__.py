@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.kinds.exercise_node import EXERCISE_NODE, exercise_node
+from gz_course.grader.kinds.given_node import EXERCISE_NODE, exercise_node
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.node import plan as node_plan

@@ -28,6 +28,8 @@ class DeclareLaunchArgument(Action):
     plain text is checked at once (InvalidArgumentError).
     """
 
+    declares_argument = True
+
     def __init__(
         self,
         name: str,

@@ -21,7 +21,8 @@ from gz_course.sim.launch.frontend.named_values import named_values
 from gz_course.sim.launch.launch_context import LaunchContext
 from gz_course.sim.launch.launch_description import LaunchDescription
 from gz_course.sim.launch.launch_description_entity import LaunchDescriptionEntity
-from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource, as_source
+from gz_course.sim.launch.launch_description_source import LaunchDescriptionSource
+from gz_course.sim.launch.launch_description_sources.any_launch_description_source import AnyLaunchDescriptionSource
 from gz_course.sim.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions.this_launch_file import CURRENT_FILE
@@ -44,6 +45,8 @@ class IncludeLaunchDescription(Action):
     configurations, and its changes remain; use GroupAction to limit them.
     """
 
+    includes_description = True
+
     def __init__(
         self,
         launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
@@ -52,7 +55,7 @@ class IncludeLaunchDescription(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        self.launch_description_source = as_source(launch_description_source)
+        self.launch_description_source = _as_source(launch_description_source)
         pairs = launch_arguments.items() if isinstance(launch_arguments, Mapping) else (launch_arguments or ())
         self.launch_arguments = [_as_pair(pair) for pair in pairs]  # values are looked at on execution
 
@@ -196,3 +199,17 @@ def _normalized(pair: tuple[Any, Any]) -> tuple[list[Substitution], list[Substit
 
 def _same(one: str, other: str) -> bool:
     return os.path.realpath(one) == os.path.realpath(other)
+
+
+def _as_source(source: Any) -> LaunchDescriptionSource:
+    """Return a source for an argument of IncludeLaunchDescription: a source or the path of a launch file."""
+    if isinstance(source, LaunchDescriptionSource):
+        return source
+    if isinstance(source, LaunchDescription):
+        return LaunchDescriptionSource(source)
+    if isinstance(source, str | os.PathLike | Substitution | list | tuple):
+        return AnyLaunchDescriptionSource(source)
+    raise TypeError(
+        f"IncludeLaunchDescription wants PythonLaunchDescriptionSource(path), not {source!r} of type "
+        f"{type(source).__name__}"
+    )

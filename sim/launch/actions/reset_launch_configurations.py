@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 class ResetLaunchConfigurations(Action):
     """Removes all launch configurations and sets the given ones."""
 
+    hides_arguments = True
+
     def __init__(
         self,
         launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,

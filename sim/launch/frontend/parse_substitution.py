@@ -12,6 +12,7 @@ from typing import Any
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.launch.frontend.expose import add_substitution, substitution_parse_methods
+from gz_course.sim.launch.frontend.extensions import load_foreign_extensions
 from gz_course.sim.launch.substitution import Substitution
 from gz_course.sim.launch.substitutions import (
     AllSubstitution,
@@ -154,8 +155,6 @@ def _make(words: list[list[Substitution]], source: str) -> Substitution:
         raise SubstitutionFailure(f"{source!r} does not begin with the name of a substitution")
     name = first.text
     if name not in substitution_parse_methods:
-        from gz_course.sim.launch.frontend.parser import load_foreign_extensions
-
         load_foreign_extensions()
     if name not in substitution_parse_methods:
         other = _OTHER_NAMES.get(name)

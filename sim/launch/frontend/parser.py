@@ -15,6 +15,7 @@ from gz_course.sim.launch.action import Action
 from gz_course.sim.launch.errors import written_at
 from gz_course.sim.launch.frontend.entity import Entity, EntityError, LaunchText
 from gz_course.sim.launch.frontend.expose import action_parse_methods
+from gz_course.sim.launch.frontend.extensions import EXTENSIONS, load_foreign_extensions
 from gz_course.sim.launch.frontend.parse_substitution import (
     parse_if_substitutions,
     parse_substitution,
@@ -24,7 +25,6 @@ from gz_course.sim.launch.invalid_launch_file_error import InvalidLaunchFileErro
 from gz_course.sim.launch.substitution import Substitution
 
 _SIM = __name__.partition(".launch.")[0]
-_EXTENSIONS = ("launch_ros",)  # packages that bring actions and substitutions, loaded when a file is
 _FORMATS = {"xml": "launch_xml", "yaml": "launch_yaml", "yml": "launch_yaml"}
 # What ROS 1 calls differently, and what people try: name -> what to write.
 _OTHER_NAMES = {
@@ -58,7 +58,7 @@ class Parser:
         """Load the packages that bring actions and substitutions."""
         if not Parser.extensions_loaded:
             Parser.extensions_loaded = True
-            for name in _EXTENSIONS:
+            for name in EXTENSIONS:
                 importlib.import_module(f"{_SIM}.{name}")
 
     @classmethod
@@ -165,16 +165,6 @@ def _located(entity: Entity) -> Any:
 def one_line(error: BaseException) -> str:
     text = " ".join(str(error.args[0] if isinstance(error, KeyError) and error.args else error).split())
     return text or type(error).__name__
-
-
-def load_foreign_extensions() -> None:
-    """Load what other installed packages bring, as ROS 2's launch does at every start."""
-    from importlib.metadata import entry_points
-
-    for each in entry_points(group="launch.frontend.launch_extension"):
-        if each.name not in _EXTENSIONS:
-            with contextlib.suppress(ImportError):
-                each.load()
 
 
 def source_of(file: Any) -> LaunchText:

@@ -15,7 +15,7 @@ def normalize_to_list_of_substitutions(subst: Any) -> list[Substitution]:
 
     Raises NotTextError (a TypeError) for anything else.
     """
-    from gz_course.sim.launch.substitutions import TextSubstitution
+    from gz_course.sim.launch.substitutions.text_substitution import TextSubstitution
 
     if isinstance(subst, Substitution):
         return [subst]

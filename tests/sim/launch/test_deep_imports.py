@@ -40,7 +40,7 @@ OWN = {
         "UsedTwiceError",
     },
     "launch.frontend.entity": {"EntityError", "LaunchText"},
-    "launch_ros.parameter_values": {"ParameterTypeError"},
+    "launch_ros.parameter_values": {"ParameterTypeError", "TypedValue"},
     "launch_ros.ros_adapters": {"ROSAdapter"},  # the module of this name in ROS 2's launch_ros
 }
 # Modules of ROS 2's launch that hold a type, not a class.

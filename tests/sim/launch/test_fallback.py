@@ -44,7 +44,9 @@ def installed(tmp_path):
     (site / PUBLIC_NAMES).mkdir()
     (site / HOOK).write_text((SIM / "prefix" / HOOK).read_text())
     (site / "gz_course/__init__.py").write_text((PUBLIC / "gz_course/__init__.py").read_text())
-    (site / "gz_course/sim").symlink_to(SIM)
+    (site / "gz_course/sim").mkdir()  # itself no link: that is how a checkout is known
+    for each in SIM.iterdir():
+        (site / "gz_course/sim" / each.name).symlink_to(each)
     for name in ("launch", "launch_ros"):
         (site / PUBLIC_NAMES / name).symlink_to(PUBLIC / name)
     return site

@@ -11,8 +11,8 @@ from _queue import SimpleQueue  # that of `queue` is replaced by one whose waite
 from collections.abc import Callable
 from typing import Any
 
-from . import python_3
 from .channel import channel
+from .python_3_threads import at_work
 
 _answers: SimpleQueue[dict[str, Any]] = SimpleQueue()
 _asking = _thread.allocate_lock()
@@ -39,7 +39,7 @@ def ask(question: dict[str, Any]) -> dict[str, Any]:
 
     The process counts as at work meanwhile, because it goes on with the answer at once.
     """
-    with _asking, python_3.at_work():
+    with _asking, at_work():
         channel().send(question)
         if not channel().listening:
             _receive_answer()

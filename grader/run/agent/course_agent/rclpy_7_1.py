@@ -20,7 +20,7 @@ from .endpoint_description import type_name
 from .executor_monitor import HOLD, HOUSEKEEPING, SIMULATED_CLOCKS, TOPICS, ExecutorMonitor
 from .history import kept_depth
 from .inbox import Kept, fill, has_kept, is_copy, kept
-from .python_3 import install_threads
+from .python_3_threads import install_threads
 from .rclpy_7_1_waits import may_ask, nudge, watch_waits
 from .rosout_counter import watch_logging
 from .self_check import Reliance, misfits

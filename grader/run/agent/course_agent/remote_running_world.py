@@ -10,8 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from . import python_3
 from .grader_requests import ask
+from .python_3_threads import at_work
 from .thread_monitor import monotonic, sleep
 
 LOOK_AGAIN = 0.05  # [s] until a world is asked for again
@@ -34,7 +34,7 @@ class RemoteRunningWorld:
                 break  # however long it took
             if answer.get("coming"):  # it has not got up yet, perhaps on a busy machine
                 end = max(end, monotonic() + timeout)
-                with python_3.at_work():  # a world that comes does not run on before it is found
+                with at_work():  # a world that comes does not run on before it is found
                     sleep(LOOK_AGAIN)
                 continue
             if monotonic() > end:
@@ -53,7 +53,7 @@ class RemoteRunningWorld:
         sent = type(request).FromString(request.SerializeToString())
         if getattr(request, "sdf", "") or getattr(request, "sdf_filename", ""):
             try:
-                with python_3.at_work():  # also while it waits for xacro, which runs in a process of its own
+                with at_work():  # also while it waits for xacro, which runs in a process of its own
                     asked["description"], asked["warnings"] = _handed_over(request.sdf, request.sdf_filename)
             except SimError:
                 return False  # the caller reads it again and says why

@@ -1,6 +1,6 @@
 """Self-check of the patches: compares what they depend on with what is installed, before anything is patched.
 
-`rclpy_7_1.py` and `python_3.py` list what they depend on. The agent checks that as it patches; the grader checks its
+`rclpy_7_1*.py` and `python_3*.py` list what they depend on. The agent checks that as it patches; the grader checks its
 own copies when a run begins (`grader/run/run_loop.py`), so that a changed library ends in one clear sentence.
 """
 
@@ -40,3 +40,9 @@ def misfits(relied_upon: Mapping[str, Reliance]) -> list[str]:
         known = {*code.co_names, *code.co_varnames, *code.co_cellvars}
         found += [f"{name} does not use {each!r} any more" for each in names.split() if each not in known]
     return found
+
+
+def require(relied_upon: Mapping[str, Reliance]) -> None:
+    """Raise ImportError with the first misfit, if there is one."""
+    if found := misfits(relied_upon):
+        raise ImportError(f"this Python cannot be kept in step: {found[0]}")

@@ -1,9 +1,9 @@
 """Which threads of this process are at work, and how long the others sleep: in simulated time.
 
 A process has nothing left to do when no thread is at work. A thread counts as at work from its start, except while it
-waits in a call that is watched: `python_3.py` and `rclpy_7_1.py` patch those. Who ends the wait of a thread (with a
-lock, an event, a message to itself) counts it as at work again, at once and not when it comes to run, so that there is
-no moment at which nobody seems to be at work.
+waits in a call that is watched: `python_3_threads.py` and `rclpy_7_1.py` patch those. Who ends the wait of a thread
+(with a lock, an event, a message to itself) counts it as at work again, at once and not when it comes to run, so that
+there is no moment at which nobody seems to be at work.
 
 A wait with a timeout is a sleep. It ends when the grader orders the one that is due first to wake up; of those due at
 the same time, that of the thread that was started first. A sleep takes whole milliseconds, at least one.

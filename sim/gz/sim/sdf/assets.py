@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.description import Look
-from gz_course.sim.gz.sim.sdf.heightmap import MOST_PIXELS
+from gz_course.sim.gz.sim.sdf.grey_image import MOST_PIXELS
 from gz_course.sim.gz.sim.sdf.meshes import Mesh
 from gz_course.sim.gz.sim.sdf.textures import LARGEST, Pixels
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.description import Look
-from gz_course.sim.gz.sim.sdf.meshes import MOST_BYTES, Part, Triangles, Vertices
+from gz_course.sim.gz.sim.sdf.mesh_parts import MOST_BYTES, Part, Triangles, Vertices
 from gz_course.sim.gz.sim.sdf.textures import Pixels, decode
 
 _MAGIC = b"glTF"

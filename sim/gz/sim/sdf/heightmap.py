@@ -2,7 +2,7 @@
 
 `gz.sim.sdf.geometry` calls it; `gz.sim.physics.geoms` makes a MuJoCo height field of the result. Black has the height
 zero and the brightest pixel of the image the z of `<size>`; a negative z inverts the heights. The first row of the
-image lies at +y. MuJoCo decodes the image.
+image lies at +y.
 
 Source: gz-common 5, https://github.com/gazebosim/gz-common/blob/gz-common5/geospatial/src/ImageHeightmap.cc
 """
@@ -12,7 +12,6 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,8 +19,6 @@ from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
 from gz_course.sim.gz.sim.sdf.description import Geometry, TriangleMesh
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.resources import Resources
-
-MOST_PIXELS = 4_200_000
 
 
 def read_heightmap(
@@ -64,27 +61,6 @@ def _terrain(
         heights = 1.0 - heights
     heights = heights * abs(size[2])
     return heights, _surface(heights, size)
-
-
-def read_image(path: Path) -> NDArray[np.uint8]:
-    """Return the first channel of a PNG file, (rows, columns) of 0..255. Raises ResourceError if it cannot be read."""
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise ResourceError(f"the image {path} cannot be read ({error.strerror})") from None
-    if not data.startswith(b"\x89PNG\r\n\x1a\n") or len(data) < 33:
-        raise ResourceError(f"the image {path} is not a PNG file; convert it to one")
-    width, height = (int.from_bytes(data[at : at + 4], "big") for at in (16, 20))
-    if width < 2 or height < 2 or width * height > MOST_PIXELS:
-        raise ResourceError(f"the image {path} has {width} x {height} pixels; 2 x 2 to 2049 x 2049 are possible")
-    spec = mujoco.MjSpec()
-    spec.assets = {"image.png": data}
-    spec.add_texture(name="image", type=mujoco.mjtTexture.mjTEXTURE_2D, file="image.png", nchannel=1)
-    try:
-        model = spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
-        raise ResourceError(f"the image {path} cannot be decoded ({' '.join(str(error).split())})") from None
-    return np.array(model.tex_data[: width * height], dtype=np.uint8).reshape(height, width)
 
 
 def _surface(heights: NDArray[np.float64], size: tuple[float, ...]) -> TriangleMesh:

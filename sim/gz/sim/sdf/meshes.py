@@ -1,16 +1,13 @@
-"""Reads mesh files as vertices, triangles and looks: STL (binary and ASCII), OBJ, glTF and, with the extra `collada`,
-COLLADA.
+"""Reads mesh files as vertices, triangles and looks: STL, OBJ, glTF and, with the extra `collada`, COLLADA.
 
-`<scale>` is not applied here, so that a file is read once for all its sizes.
-
-Source: https://www.fabbers.com/tech/STL_Format
+Each format has a file of its own, which reads the parts (`mesh_parts.py`) that become one mesh here. `<scale>` is not
+applied here, so that a file is read once for all its sizes.
 """
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,18 +17,14 @@ from numpy.typing import NDArray
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.description import Look
-
-Vertices = NDArray[np.float64]
-Triangles = NDArray[np.int32]
+from gz_course.sim.gz.sim.sdf.mesh_parts import MOST_BYTES, Part, Triangles, Vertices
+from gz_course.sim.gz.sim.sdf.stl_mesh import read_stl
 
 READABLE = (".stl", ".obj", ".dae", ".gltf", ".glb")
 _UNREAD = (".ply", ".fbx", ".3ds", ".blend", ".msh", ".off", ".x3d", ".wrl")
-MOST_BYTES = 256 * 1024 * 1024
 PLAIN = Look((0.7, 0.7, 0.7, 1.0))
 """The look of a part of a mesh that has none, beside parts that have one."""
 _LARGEST = 1e9  # larger coordinates come from damaged files, and their squares overflow a float32
-_STL_HEADER = 84
-_STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,24 +42,6 @@ class Mesh:
     looks: tuple[Look, ...] = ()
     look: NDArray[np.int32] | None = None
     notes: tuple[str, ...] = ()
-
-
-@dataclass(eq=False)
-class Part:
-    """Triangles and the names of their part: an OBJ group or object, a solid, a COLLADA node.
-
-    `uv` are the places of their corners in a texture, in the file's own direction (v upwards), `look` their appearance.
-    """
-
-    names: tuple[str, ...]
-    triangles: list[tuple[int, int, int]] | Triangles
-    uv: list[tuple[tuple[float, float], ...]] | NDArray[np.float64] | None = None
-    look: Look | None = None
-
-    def add(self, triangles: Iterable[tuple[int, int, int]]) -> None:
-        """Add triangles to a part whose triangles are a list."""
-        assert isinstance(self.triangles, list)
-        self.triangles.extend(triangles)
 
 
 def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
@@ -95,7 +70,7 @@ def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
 
         vertices, parts = read_gltf(path, data, notes)
     else:
-        vertices, parts = _stl(path, data)
+        vertices, parts = read_stl(path, data)
     if submesh:
         chosen = [part for part in parts if submesh in part.names]
         if not chosen:
@@ -178,81 +153,6 @@ def _looks(
     used, renumbered = np.unique(look, return_inverse=True)
     looks = tuple(known)
     return tuple(looks[number] for number in used.tolist()), renumbered.reshape(-1).astype(np.int32)
-
-
-def _stl(path: Path, data: bytes) -> tuple[Vertices, list[Part]]:
-    """Read binary or ASCII STL; the size decides first, because a binary file may also begin with "solid"."""
-    count = int.from_bytes(data[80:_STL_HEADER], "little") if len(data) >= _STL_HEADER else -1
-    expected = _STL_HEADER + count * _STL_FACET.itemsize
-    if count >= 0 and expected <= len(data) and (expected == len(data) or not _looks_ascii(data)):
-        facets = np.frombuffer(data, _STL_FACET, count, _STL_HEADER)
-        with np.errstate(invalid="ignore"):  # a damaged number may be a signalling NaN; it is rejected below
-            corners = facets["corners"].astype(np.float64).reshape(-1, 3)
-        indices = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
-        return corners, [Part((), indices)]
-    if _looks_ascii(data):
-        return _ascii_stl(path, data)
-    if count < 0:
-        raise ResourceError(f"{path}: this is no STL file: {len(data)} bytes are too few for a header")
-    whole = max(0, len(data) - _STL_HEADER) // _STL_FACET.itemsize
-    raise ResourceError(f"{path}: the STL file is cut off: it announces {count} triangles and holds {whole}")
-
-
-def _looks_ascii(data: bytes) -> bool:
-    head = data[:1024].lstrip().lower()
-    return head.startswith(b"solid") and b"\0" not in data[:1024]
-
-
-def _ascii_stl(path: Path, data: bytes) -> tuple[Vertices, list[Part]]:
-    vertices: list[tuple[float, ...]] = []
-    parts: list[Part] = []
-    loop: list[int] | None = None
-    ended = False
-    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), 1):
-        words = line.split()
-        if not words:
-            continue
-        word = words[0].lower()
-        if word == "solid":
-            parts.append(Part((" ".join(words[1:]),), []))
-            ended = False
-        elif word == "outer":
-            loop = []
-        elif word == "vertex":
-            if loop is None or not parts:
-                raise ResourceError(f"{path}:{number}: 'vertex' stands outside of a loop")
-            loop.append(len(vertices))
-            vertices.append(numbers(path, number, words[1:4]))
-        elif word == "endloop":
-            if loop is None or len(loop) < 3:
-                raise ResourceError(f"{path}:{number}: a loop needs three vertices, got {len(loop or ())}")
-            parts[-1].add(fan(loop))
-            loop = None
-        elif word == "endsolid":
-            ended = True
-        elif word not in ("facet", "endfacet"):
-            raise ResourceError(f"{path}:{number}: '{words[0][:20]}' is no word of an STL file")
-    if not ended:
-        raise ResourceError(f"{path}: the STL file is cut off: its last line is not 'endsolid'")
-    return rows_of(vertices), parts
-
-
-def fan(corners: Sequence[int]) -> Iterable[tuple[int, int, int]]:
-    return [(corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1)]
-
-
-def numbers(path: Path, line: int, words: list[str]) -> tuple[float, ...]:
-    try:
-        values = tuple(map(float, words))
-    except ValueError:
-        values = ()
-    if len(values) != 3 or not all(map(math.isfinite, values)):
-        raise ResourceError(f"{path}:{line}: a vertex needs 3 finite numbers, got '{' '.join(words)[:60]}'")
-    return values
-
-
-def rows_of(vertices: list[tuple[float, ...]]) -> Vertices:
-    return np.array(vertices, dtype=np.float64).reshape(-1, 3)
 
 
 def _collada(path: Path, data: bytes, notes: list[str]) -> tuple[Vertices, list[Part]]:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.description import Look
-from gz_course.sim.gz.sim.sdf.meshes import Part, Vertices, fan, numbers, rows_of
+from gz_course.sim.gz.sim.sdf.mesh_parts import Part, Vertices, fan, numbers, rows_of
 from gz_course.sim.gz.sim.sdf.textures import Pixels, read_texture
 
 _LONGEST_MTL = 4 << 20  # [byte]

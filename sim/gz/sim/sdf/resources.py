@@ -325,7 +325,7 @@ class Files:
 
     def read_image(self, path: Path) -> NDArray[np.uint8]:
         """Return the first channel of a PNG file."""
-        from gz_course.sim.gz.sim.sdf.heightmap import read_image
+        from gz_course.sim.gz.sim.sdf.grey_image import read_image
 
         return read_image(path)
 

@@ -7,7 +7,7 @@ ASK = """
 import threading
 from pathlib import Path
 from types import SimpleNamespace
-from gz_course.grader.run.agent.course_agent import python_3, thread_monitor
+from gz_course.grader.run.agent.course_agent import python_3_threads, thread_monitor
 from gz_course.grader.run.agent.course_agent.thread_monitor import ThreadMonitor
 
 asked = []
@@ -26,7 +26,7 @@ asking = threading.get_native_id()
 monitor, idle = ThreadMonitor(), []
 answering = threading.Thread(target=answer)
 answering.start()
-python_3.install_threads(monitor)
+python_3_threads.install_threads(monitor)
 from gz_course.grader.run.agent.course_agent import grader_requests
 
 grader_requests.channel = lambda: SimpleNamespace(send=asked.append, listening=True)

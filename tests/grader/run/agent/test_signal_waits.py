@@ -7,7 +7,7 @@ import pytest
 
 WAIT = """
 import _thread, os, signal, sys
-from gz_course.grader.run.agent.course_agent import python_3
+from gz_course.grader.run.agent.course_agent import python_3_threads
 from gz_course.grader.run.agent.course_agent.thread_monitor import ThreadMonitor
 
 monitor, main, said = ThreadMonitor(), _thread.get_ident(), []
@@ -21,7 +21,7 @@ def end():
         signal.pthread_kill(main, signal.SIGUSR1)
 
 signal.signal(signal.SIGUSR1, lambda *_: None)
-python_3.install_threads(monitor)
+python_3_threads.install_threads(monitor)
 if CALL != "pause()":
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1})
 _thread.start_new_thread(end, ())

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.grader.run.agent.course_agent.python_3 import THREADS
+from gz_course.grader.run.agent.course_agent.python_3_threads import THREADS
 from gz_course.grader.run.agent.course_agent.self_check import misfits
 
 SPEAKS_AT_ONCE = """
