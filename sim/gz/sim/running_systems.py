@@ -16,7 +16,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import SdfError
 from gz_course.sim.gz.sim.physics.servos import JointServo
 from gz_course.sim.gz.sim.physics.welds import WeldRequest
-from gz_course.sim.gz.sim.plugins.sensor import KNOWN_TYPES, SensorBase, sensor_types
+from gz_course.sim.gz.sim.plugins.sensor import NOT_SIMULATED, SensorBase, sensor_types
 from gz_course.sim.gz.sim.plugins.sensor_system import SensorSystem
 from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, find_system, system_name, systems
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin, Sensor
@@ -284,7 +284,7 @@ def _why_silent(sensor: Sensor, running: set[str]) -> str:
             f"sensor '{sensor.name}' stays silent because the world does not load the {system} system; add "
             f"<plugin filename='{systems()[system].filename}' name='gz::sim::systems::{system}'/> to <world>"
         )
-    if kind in KNOWN_TYPES:
+    if kind in NOT_SIMULATED:
         return f"sensor type '{kind}' is not simulated here, sensor '{sensor.name}' stays silent"
     hint = did_you_mean(kind, types, listing="types that run here are")
     return f"sensor '{sensor.name}' has type '{kind}', which is not known{hint}"

@@ -1,6 +1,7 @@
 """The base class of all sensors (topic, frame, rate) and the registry of `<sensor type=...>`.
 
-A sensor type is a file in `gz/sim/sensors` with a class under `@sensor_type`. The system named by `runs_in` creates
+A sensor type is a file in `gz/sim/sensors` with a class under `@sensor_type`, and `SDF_WORDS`, which says what stands
+in its `<sensor>` (`sdf/vocabulary.py`). The system named by `runs_in` creates
 the sensors and calls `run` when they are due, which calls `update` if there is a subscriber.
 
 Source: http://sdformat.org/spec?elem=sensor
@@ -26,42 +27,8 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
-KNOWN_TYPES = frozenset(
-    [
-        "air_pressure",
-        "air_speed",
-        "altimeter",
-        "boundingbox",
-        "boundingbox_camera",
-        "camera",
-        "contact",
-        "custom",
-        "depth",
-        "depth_camera",
-        "force_torque",
-        "gps",
-        "gpu_lidar",
-        "gpu_ray",
-        "imu",
-        "lidar",
-        "logical_camera",
-        "magnetometer",
-        "multicamera",
-        "navsat",
-        "ray",
-        "rgbd",
-        "rgbd_camera",
-        "segmentation",
-        "segmentation_camera",
-        "thermal",
-        "thermal_camera",
-        "wideangle_camera",
-        "wideanglecamera",
-        "wide_angle_camera",
-    ]
-)
-"""All sensor types of SDF, including those that are not simulated."""
-
+NOT_SIMULATED = frozenset(("custom", "multicamera"))
+"""The sensor types of SDF that have no file here."""
 
 _ZEROS = (0, 0, 0, 0)
 _FRESH = {"bit_generator": "Philox", "buffer": _ZEROS, "buffer_pos": 4, "has_uint32": 0, "uinteger": 0}

@@ -15,7 +15,7 @@ from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.sdf.description import Link, Model
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.inertia import solid, tensor
-from gz_course.sim.gz.sim.sdf.vocabulary import CHILDREN
+from gz_course.sim.gz.sim.sdf.vocabulary import known_words
 
 Found = Iterator[tuple[str, str]]
 """Places (`file:line`) and sentences."""
@@ -65,7 +65,7 @@ def check_origins(robot: Element, diagnostics: Diagnostics) -> None:
 
 def _stray_text(element: Element) -> Found:
     if element.tag in _NO_TEXT and element.text:
-        known = ", ".join(f"<{tag}>" for tag in sorted(CHILDREN.get(element.tag, ())))
+        known = ", ".join(f"<{tag}>" for tag in sorted(known_words().children.get(element.tag, ())))
         yield element.where, f"the text '{element.text}' in <{element.tag}> is ignored; what can stand there is {known}"
 
 

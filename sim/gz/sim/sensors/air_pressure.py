@@ -23,6 +23,12 @@ from gz_course.sim.gz.sim.sdf.element import Element
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "sensor": "air_pressure",
+    "air_pressure": "reference_altitude pressure",
+    "pressure": "noise range",
+}
+
 SEA_LEVEL_PRESSURE = 101325.0
 """[Pa]"""
 SEA_LEVEL_TEMPERATURE = 288.15

@@ -18,6 +18,12 @@ from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sensors.air_pressure import HIGHEST, LAPSE_RATE, SEA_LEVEL_TEMPERATURE
 
+SDF_WORDS = {
+    "sensor": "air_speed",
+    "air_speed": "pressure",
+    "pressure": "noise range",
+}
+
 SEA_LEVEL_DENSITY = 1.225
 """[kg/m^3]"""
 DENSITY_EXPONENT = 4.256

@@ -16,6 +16,13 @@ from gz_course.sim.gz.sim.plugins.sensor_system import sensor_system
 from gz_course.sim.gz.sim.plugins.site_sensor import SiteSensor, noise_at
 from gz_course.sim.gz.sim.sdf.element import Element
 
+SDF_WORDS = {
+    "sensor": "altimeter",
+    "altimeter": "vertical_position vertical_velocity",
+    "vertical_position": "noise",
+    "vertical_velocity": "noise",
+}
+
 
 @sensor_type("altimeter")
 class Altimeter(SiteSensor):

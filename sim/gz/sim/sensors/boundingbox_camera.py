@@ -35,6 +35,10 @@ from gz_course.sim.gz.sim.systems.label import label_of
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "camera": "box_type",
+}
+
 VISIBLE, FULL, SOLID = "2d", "full_2d", "3d"
 _TYPES = {
     "2d": VISIBLE,

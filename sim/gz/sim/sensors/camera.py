@@ -23,6 +23,23 @@ from gz_course.sim.gz.sim.sdf.description import Sensor
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "sensor": "camera",
+    "camera": (
+        "triggered trigger_topic camera_info_topic horizontal_fov image clip save noise distortion lens "
+        "visibility_mask optical_frame_id pose background frame view_controller projection_type track_visual"
+    ),
+    "image": "width height format anti_aliasing",
+    "track_visual": "name min_dist max_dist static use_model_frame xyz inherit_yaw",
+    "clip": "near far",
+    "save": "path @enabled",
+    "distortion": "k1 k2 k3 p1 p2 center",
+    "lens": "type scale_to_hfov custom_function cutoff_angle env_texture_size intrinsics projection",
+    "custom_function": "c1 c2 c3 f fun",
+    "intrinsics": "fx fy cx cy s",
+    "projection": "p_fx p_fy p_cx p_cy tx ty",
+}
+
 FORMATS = {
     "R8G8B8": "RGB_INT8",
     "RGB_INT8": "RGB_INT8",

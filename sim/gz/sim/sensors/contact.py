@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
+SDF_WORDS = {
+    "sensor": "contact",
+    "contact": "collision topic",
+}
+
 NO_TOPIC = "__default_topic__"
 
 

@@ -24,6 +24,11 @@ from gz_course.sim.gz.sim.sensors.camera import to_bytes
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "camera": "depth_camera",
+    "depth_camera": "output clip",
+}
+
 
 class DepthSensing(CameraSensor):
     """Base of depth cameras and RGBD cameras."""

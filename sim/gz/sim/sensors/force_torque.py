@@ -29,6 +29,13 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
+SDF_WORDS = {
+    "sensor": "force_torque",
+    "force_torque": "frame measure_direction force torque range",
+    "force": "x y z",
+    "torque": "x y z",
+}
+
 FRAMES = ("child", "parent", "sensor")
 DIRECTIONS = ("child_to_parent", "parent_to_child")
 """The measured wrench: `a_to_b` is that of link a on link b. The first one is the default."""

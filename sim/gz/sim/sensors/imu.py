@@ -28,6 +28,19 @@ from gz_course.sim.gz.sim.sdf.element import Element
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "sensor": "imu",
+    "imu": (
+        "angular_velocity linear_acceleration orientation orientation_reference_frame enable_orientation noise topic"
+    ),
+    "orientation_reference_frame": "localization custom_rpy grav_dir_x",
+    "custom_rpy": "@parent_frame",
+    "grav_dir_x": "@parent_frame",
+    "angular_velocity": "x y z",
+    "linear_acceleration": "x y z",
+    "orientation": "x y z",
+}
+
 _FROM_ENU = {
     "ENU": (0.0, 0.0, 0.0),
     "NED": (math.pi, 0.0, math.pi / 2.0),

@@ -30,6 +30,16 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
+SDF_WORDS = {
+    "sensor": "lidar ray",
+    "lidar": "scan range noise visibility_mask",
+    "ray": "scan range noise visibility_mask",
+    "scan": "horizontal vertical",
+    "horizontal": "samples resolution min_angle max_angle noise",
+    "vertical": "samples resolution min_angle max_angle noise",
+    "range": "min max resolution",
+}
+
 MOST_RAYS = 2_000_000
 """Maximum number of rays of a lidar; a scan with more would take minutes."""
 _MORE_THAN_ROUND = 6.5  # [rad]; more than 2 pi, because a full turn may be rounded

@@ -24,6 +24,11 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
 
+SDF_WORDS = {
+    "sensor": "logical_camera",
+    "logical_camera": "near far aspect_ratio horizontal_fov",
+}
+
 
 @sensor_type("logical_camera")
 class LogicalCamera(SiteSensor):

@@ -27,6 +27,11 @@ from gz_course.sim.gz.sim.sdf.element import Element
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "sensor": "magnetometer",
+    "magnetometer": "x y z",
+}
+
 GAUSS = 1e4
 """Gauss per tesla."""
 

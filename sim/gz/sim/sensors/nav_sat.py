@@ -22,6 +22,16 @@ from gz_course.sim.gz.sim.sdf.element import Element
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "sensor": "navsat gps",
+    "navsat": "position_sensing velocity_sensing",
+    "gps": "position_sensing velocity_sensing",
+    "position_sensing": "horizontal vertical",
+    "velocity_sensing": "horizontal vertical",
+    "horizontal": "noise",
+    "vertical": "noise",
+}
+
 SUSPICIOUS_DEGREES = 0.01
 """Standard deviation [deg] of the horizontal position (1.1 km) from which on it is probably in metres."""
 

@@ -27,6 +27,10 @@ from gz_course.sim.gz.sim.systems.label import label_of
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
 
+SDF_WORDS = {
+    "camera": "segmentation_type",
+}
+
 _PANOPTIC = {"semantic": False, "instance": True, "panoptic": True}
 
 

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import random
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.plugins.sensor import sensor_types
+from gz_course.sim.gz.sim.sdf import vocabulary
 from gz_course.sim.gz.sim.sdf.element import parse
-from gz_course.sim.gz.sim.sdf.vocabulary import ATTRIBUTES, CHILDREN, check
+from gz_course.sim.gz.sim.sdf.vocabulary import check, known_words
+
+CHILDREN, ATTRIBUTES = known_words()
 
 
 def warnings(text: str) -> list[str]:
@@ -54,3 +61,37 @@ def test_ten_thousand_typos_are_a_hundred_warnings() -> None:
     words = "".join(f"<{''.join(chance.choices('abcdefgh', k=8))}/>" for _ in range(10_000))
     found = warnings(f"<world>{words}</world>")
     assert len(found) == 101 and "more than 100 words" in found[-1]
+
+
+@pytest.fixture
+def sensors(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Return the folder of the sensors, a copy that may be changed."""
+    monkeypatch.setattr(vocabulary, "SENSORS", Path(shutil.copytree(vocabulary.SENSORS, tmp_path / "sensors")))
+    known_words.cache_clear()
+    yield vocabulary.SENSORS
+    known_words.cache_clear()
+
+
+def test_the_file_of_a_sensor_brings_its_words(sensors: Path) -> None:
+    text = "<sensor><compass><north/></compass></sensor>"
+    assert "<sensor> has no element <compass>" in warnings(text)[0]
+    (sensors / "compass.py").write_text("SDF_WORDS = {'sensor': 'compass', 'compass': 'north @magnetic'}\n")
+    known_words.cache_clear()
+    assert warnings(text) == []
+    assert warnings("<compass magnetic='1'/>") == []
+    assert "did you mean 'north'?" in warnings("<sensor><compass><nort/></compass></sensor>")[0]
+    (sensors / "imu.py").unlink()
+    known_words.cache_clear()
+    assert "<sensor> has no element <imu>" in warnings("<sensor><imu/></sensor>")[0]
+
+
+@pytest.mark.parametrize("value", ["dict(sensor='x')", "{'sensor': 3}", "['sensor']"])
+def test_words_of_a_sensor_that_are_no_literal_name_the_file(sensors: Path, value: str) -> None:
+    (sensors / "compass.py").write_text(f"\nSDF_WORDS = {value}\n")
+    with pytest.raises(ValueError, match=r"compass.py:2: SDF_WORDS is not a literal dict"):
+        known_words()
+
+
+def test_every_element_that_a_sensor_type_is_named_for_is_known() -> None:
+    named = {kind for kind in sensor_types() if kind in CHILDREN}
+    assert named <= CHILDREN["sensor"] | {"depth_camera"}  # the latter stands in <camera>
