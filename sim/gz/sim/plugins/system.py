@@ -134,9 +134,11 @@ def systems() -> dict[str, type[System]]:
 
 @cache
 def scan(room: str) -> None:
-    """Import every file of a folder of this package, so that the classes in it register themselves."""
-    for module in pkgutil.iter_modules([str(Path(__file__).parents[1] / room)]):
+    """Import every file of a folder of this package, and of those in it, so that their classes register themselves."""
+    for module in pkgutil.iter_modules([str(Path(__file__).parents[1].joinpath(*room.split(".")))]):
         importlib.import_module(f"gz_course.sim.gz.sim.{room}.{module.name}")
+        if module.ispkg:
+            scan(f"{room}.{module.name}")
 
 
 BUILT_IN = {"Physics"}

@@ -9,7 +9,7 @@ import pytest
 from gz_course.sim.gz.msgs.empty_pb2 import Empty
 from gz_course.sim.gz.msgs.wind_pb2 import Wind
 from gz_course.sim.gz.sim.errors import SdfError
-from gz_course.sim.gz.sim.systems.wind_effects import WindEffects
+from gz_course.sim.gz.sim.systems.beyond_the_course.wind_effects import WindEffects
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 from gz_course.tests.sim.gz.sim.systems.floating_world import body

@@ -24,7 +24,7 @@ from gz_course.sim.gz.sim.plugins.system import System, UpdateInfo, system
 from gz_course.sim.gz.sim.pose import Vector, rotate
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.wind_effects import wind_of
+from gz_course.sim.gz.sim.systems.beyond_the_course.wind_effects import wind_of
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
