@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from gz_course.grader.feedback.predictions.of_robots.driving import leans
+from gz_course.grader.feedback.predictions.of_robots.topics import few_joints, no_joint_states, why_not_carried
 from gz_course.grader.printable import shown
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.explanations.of_robots.driving import leans
-from gz_course.grader.score.explanations.of_robots.topics import few_joints, no_joint_states, why_not_carried
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import argument, deaths, launch_facts, logged_error, ran
 from gz_course.grader.score.robots import robot_of

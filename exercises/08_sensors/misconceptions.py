@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 CHECKS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("checks.py"))))
 DIRECTIONS = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("directions.py"))))

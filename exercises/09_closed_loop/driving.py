@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 LONG = 0.7  # [s] of driving straight on
 FAR = 0.3  # [m] beyond the distance that is asked for

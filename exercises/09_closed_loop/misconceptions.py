@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 STEERING = runpy.run_path(str(Path(__file__).with_name("steering.py")))
 LAW = runpy.run_path(str(Path(__file__).with_name("law.py")))

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 FEWEST = 50  # commands
 NUMBER = re.compile(r"(\d+\.?\d*)(?: m)? are left out")

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
+from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.suspects import suspect
 from gz_course.grader.score.true_pose import heading
 
 DRIVING = runpy.run_path(str(Path(__file__).with_name("driving.py")))

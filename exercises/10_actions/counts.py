@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 MOVED = 0.25  # [m] from the start of a patrol: then its direction is known
 STRAIGHT = 0.15  # [rad]

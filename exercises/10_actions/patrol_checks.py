@@ -12,8 +12,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.suspects import suspect
 
 NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
 LARGEST_GAP = 1.1  # [s] between two feedback messages

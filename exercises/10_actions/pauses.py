@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 SOON = 0.6  # [s] after the patrol, or a new waypoint, began
 THERE = 0.3  # [m] from a waypoint

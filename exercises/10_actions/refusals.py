@@ -2,7 +2,7 @@
 
 import json
 
-from gz_course.grader.score.suspects import suspect
+from gz_course.grader.feedback.recorded.suspects import suspect
 
 GOALS = {
     "empty": ("a goal without waypoints", "accepts_empty"),

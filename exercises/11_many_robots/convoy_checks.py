@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from gz_course.grader.feedback.errors.launch_errors import launch_meaning
+from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
-from gz_course.grader.score.launch_errors import launch_meaning
 from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
-from gz_course.grader.score.suspects import suspect
 
 ASIDE = 0.2  # [rad] that a robot may be turned at its start
 NEAREST, FARTHEST = 0.75, 1.75  # [m] between two robots at any time

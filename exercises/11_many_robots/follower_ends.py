@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 
+from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.score.launched import own_end, without_sim_time
-from gz_course.grader.score.suspects import suspect
 
 SELDOM = 0.4  # [s] between the commands of a follower
 SILENT = 2.5  # [s] before the end of a run

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.score.floor import grown
-from gz_course.grader.score.suspects import suspect
 
 LAST, LAGS = (
     SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name(name)))) for name in ("last_commands.py", "lags.py")

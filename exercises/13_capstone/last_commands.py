@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gz_course.grader.score.own_ends import ended_by_itself
+from gz_course.grader.feedback.recorded.own_ends import ended_by_itself
 
 LONG = 1.0  # [s] without a command, in which a robot goes on by the last one
 SHARE = 0.2  # of the run without commands, that explain what was not explored

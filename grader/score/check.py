@@ -25,10 +25,10 @@ from pathlib import Path
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.predictions.answers import Explanation
+from gz_course.grader.feedback.predictions.commands import WantedDrive
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
-from gz_course.grader.score.explanations.answers import Explanation
-from gz_course.grader.score.explanations.commands import WantedDrive
 from gz_course.sim.did_you_mean import did_you_mean
 
 

@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from gz_course.grader.feedback.errors.python_errors import meaning
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.python_errors import meaning
 
 FRAME = re.compile(r'\s+File "(.*)", line (\d+)')
 INSTALLED = ("/site-packages/", "/lib/python3", "/sim/", "/gz_course/", "<")  # parts of paths of installed code

@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from gz_course.grader.feedback.errors.python_errors import meaning
+from gz_course.grader.feedback.recorded.source_places import stands_before
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.crash import read_crash
 from gz_course.grader.score.launched import launch_fault
-from gz_course.grader.score.python_errors import meaning
-from gz_course.grader.score.source_places import stands_before
 from gz_course.sim.did_you_mean import nearest_name
 
 # What a program did that was ended for breaking a limit.

@@ -11,11 +11,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.feedback.errors.launch_errors import launch_meaning
+from gz_course.grader.feedback.errors.python_errors import meaning
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.crash import Crash, read_crash
-from gz_course.grader.score.launch_errors import launch_meaning
-from gz_course.grader.score.python_errors import meaning
 
 if TYPE_CHECKING:
     from gz_course.grader.score.check import Finding

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gz_course.grader.exercise import CheckSpec, Exercise
+from gz_course.grader.feedback.predictions.answers import agreed
+from gz_course.grader.feedback.recorded.source_places import made_in
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
 from gz_course.grader.score.diagnosis import diagnose, silent
-from gz_course.grader.score.explanations.answers import agreed
-from gz_course.grader.score.source_places import made_in
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT = Finding(False, "a run that nobody tampers with", "not counted: the run was tampered with")

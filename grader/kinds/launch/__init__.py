@@ -9,15 +9,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.feedback.facts.origins import before_speeds, conditions
+from gz_course.grader.feedback.facts.own_ends import own_ends
+from gz_course.grader.feedback.launch_files import launch_places
+from gz_course.grader.feedback.slips import slips
+from gz_course.grader.feedback.suspects import suspects
 from gz_course.grader.kinds.bridge import read
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.programs import launch_command
-from gz_course.grader.lint.launch_files import launch_places
-from gz_course.grader.lint.origins import before_speeds, conditions
-from gz_course.grader.lint.own_ends import own_ends
-from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.suspects import suspects
 from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:

@@ -9,25 +9,24 @@ import tokenize
 import warnings
 from typing import TYPE_CHECKING
 
+from gz_course.grader.feedback.facts.counters import counters
+from gz_course.grader.feedback.facts.delays import delays
+from gz_course.grader.feedback.facts.early_publishing import early_publishing
+from gz_course.grader.feedback.facts.logs import seldom_log, silent_log
+from gz_course.grader.feedback.facts.origins import before_speeds, conditions, of_the_drive, origins
+from gz_course.grader.feedback.facts.own_ends import own_ends
+from gz_course.grader.feedback.facts.repetitions import repetitions
+from gz_course.grader.feedback.facts.rhythm import rhythm
+from gz_course.grader.feedback.facts.syntax import called, parsed
+from gz_course.grader.feedback.facts.time_reckoning import time_reckoning
+from gz_course.grader.feedback.facts.wall_clock import wall_clock
+from gz_course.grader.feedback.facts.whole_numbers import whole_numbers
+from gz_course.grader.feedback.slips import slips
+from gz_course.grader.feedback.slips.nodes.transforms import lookups, shared_headers
+from gz_course.grader.feedback.suspects import suspects
+from gz_course.grader.feedback.suspects.steering.feedback import MEANS
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.programs import node_command
-from gz_course.grader.lint.counters import counters
-from gz_course.grader.lint.delays import delays
-from gz_course.grader.lint.early_publishing import early_publishing
-from gz_course.grader.lint.logs import seldom_log, silent_log
-from gz_course.grader.lint.origins import before_speeds, conditions, of_the_drive, origins
-from gz_course.grader.lint.own_ends import own_ends
-from gz_course.grader.lint.repetitions import repetitions
-from gz_course.grader.lint.rhythm import rhythm
-from gz_course.grader.lint.slips import slips
-from gz_course.grader.lint.slips.nodes.message_fields import message_fields
-from gz_course.grader.lint.slips.nodes.transforms import lookups, shared_headers
-from gz_course.grader.lint.suspects import suspects
-from gz_course.grader.lint.suspects.steering.feedback import MEANS
-from gz_course.grader.lint.syntax import called, parsed
-from gz_course.grader.lint.time_reckoning import time_reckoning
-from gz_course.grader.lint.wall_clock import wall_clock
-from gz_course.grader.lint.whole_numbers import float_fields, whole_numbers
 from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
@@ -80,6 +79,7 @@ def _not_a_text(name: str, content: bytes) -> str:
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the student's node beside the exercise's bridge; record suspicious places in the file as facts."""
     from gz_course.grader.run.exercise_bridge import exercise_bridge
+    from gz_course.grader.run.message_fields import float_fields, message_fields
 
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())

@@ -62,8 +62,8 @@ def run_loop() -> type[RunLoop]:
 
 def diagnosis() -> Diagnosis:
     """Explain runs by the package first, then by the student's node."""
+    from gz_course.grader.feedback.errors.action_errors import execute_raised
     from gz_course.grader.score import diagnosis as looks
-    from gz_course.grader.score.action_errors import execute_raised
     from gz_course.grader.score.crash import survived
     from gz_course.grader.score.lost_numbers import lost_number
 

@@ -17,12 +17,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.predictions.of_robots import driving
+from gz_course.grader.feedback.predictions.of_robots.overlaps import overlap
+from gz_course.grader.feedback.predictions.of_robots.topics import commands_elsewhere, why_not_carried
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording, Signal
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.explanations.of_robots import driving
-from gz_course.grader.score.explanations.of_robots.overlaps import overlap
-from gz_course.grader.score.explanations.of_robots.topics import commands_elsewhere, why_not_carried
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import launch_facts, logged_error
 from gz_course.grader.score.robots import Robot, robot_of

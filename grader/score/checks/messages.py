@@ -16,12 +16,8 @@ from __future__ import annotations
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
-from gz_course.grader.printable import shown
-from gz_course.grader.record.reading import Recording
-from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.events import texts as texts_of
-from gz_course.grader.score.explanations.texts import difference, too_many, wrong_moment
-from gz_course.grader.score.explanations.too_early_or_late import (
+from gz_course.grader.feedback.predictions.texts import difference, too_many, wrong_moment
+from gz_course.grader.feedback.predictions.too_early_or_late import (
     added_up,
     answers_itself,
     counted_late,
@@ -29,6 +25,10 @@ from gz_course.grader.score.explanations.too_early_or_late import (
     sent_again,
     sent_too_early,
 )
+from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.check import Finding, check_kind
+from gz_course.grader.score.events import texts as texts_of
 from gz_course.grader.score.steps import told
 
 LONGEST_QUOTE = 60  # characters of a message's text that are quoted

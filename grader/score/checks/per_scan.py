@@ -25,12 +25,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.predictions.answers import Asked, Explanation, Scans, explain
+from gz_course.grader.feedback.predictions.texts import line_difference
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.events import log_lines, not_logged
-from gz_course.grader.score.explanations.answers import Asked, Explanation, Scans, explain
-from gz_course.grader.score.explanations.texts import line_difference
 
 LONGEST_LINE = 120  # [characters] of a line that is quoted
 LINES = 6  # without an answer, that are compared with the line that is asked for

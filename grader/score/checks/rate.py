@@ -16,12 +16,12 @@ import re
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.recorded.own_ends import ended_by_itself
+from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.own_ends import ended_by_itself
 from gz_course.grader.score.steps import told, window_of
-from gz_course.grader.score.suspects import suspect
 
 FEWEST = 4  # messages; fewer say nothing about a rhythm
 MOSTLY = 0.8  # of the gaps

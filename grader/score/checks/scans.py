@@ -17,10 +17,10 @@ from __future__ import annotations
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.predictions.of_robots import scanning
+from gz_course.grader.feedback.predictions.of_robots.topics import why_not_carried
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.explanations.of_robots import scanning
-from gz_course.grader.score.explanations.of_robots.topics import why_not_carried
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import logged_error
 from gz_course.grader.score.robots import Robot, robot_of

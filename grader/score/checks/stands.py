@@ -14,11 +14,11 @@ from __future__ import annotations
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.predictions.of_robots import standing
+from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass
+from gz_course.grader.feedback.predictions.of_robots.overlaps import overlap
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.explanations.of_robots import standing
-from gz_course.grader.score.explanations.of_robots.masses import odd_mass
-from gz_course.grader.score.explanations.of_robots.overlaps import overlap
 from gz_course.grader.score.launched import launch_facts
 from gz_course.grader.score.robots import Robot, robot_of
 from gz_course.grader.score.steps import told

@@ -15,9 +15,9 @@ from collections.abc import Callable
 from typing import Any
 
 from gz_course.grader.exercise.toml_table import Table
+from gz_course.grader.feedback.predictions.tables import explain_column
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.explanations.tables import explain_column
 from gz_course.grader.score.graphs import WAYS, Link, bridges, links
 from gz_course.sim.did_you_mean import did_you_mean, nearest_name
 

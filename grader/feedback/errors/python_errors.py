@@ -1,0 +1,354 @@
+"""Explanations for errors of Python and rclpy whose own text does not say what to change; used by `diagnosis.py`.
+
+Only errors with a certain cause are listed: a wrong guess is worse than none.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+
+from gz_course.grader.feedback.errors import libraries, values
+from gz_course.grader.feedback.errors.imports import import_fault, unknown_name
+from gz_course.grader.feedback.errors.node_interface import arguments, attributes, own_arguments
+from gz_course.grader.feedback.errors.operands import calls, lists, operands
+from gz_course.grader.feedback.errors.syntax import syntax
+from gz_course.grader.feedback.errors.transforms import transform_fault
+from gz_course.sim.did_you_mean import nearest_name
+
+# Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
+MEANINGS = (
+    (
+        re.compile(r"TypeError: \w+\.(?!__)(\w+)\(\) takes 0 positional arguments but 1 was given"),
+        "a method gets the object itself as its first argument: def {0}(self)",
+    ),
+    (
+        re.compile(r"TypeError: (?!Node\b)\w+\.(?!__)(\w+)\(\) takes 1 positional argument but 2 were given"),
+        "a method gets the object itself and then what it is called with, a callback its message: "
+        "def {0}(self, message)",
+    ),
+    (
+        re.compile(
+            r"TypeError: (String|Bool|Float\d+|U?Int\d+|Twist|Vector3|Point|Quaternion|Header)\.__init__\(\) takes 1 "
+            r"positional argument but \d+ were given"
+        ),
+        "a message takes its fields by their names, as String(data='...') does",
+    ),
+    (
+        re.compile(r"AttributeError: '(?:float|int|str)' object has no attribute '([xyz])'"),
+        "a number is given where a vector is needed: linear and angular of a Twist have the fields x, y and z, as in "
+        "command.linear.{0} = 0.5",
+    ),
+    (
+        re.compile(r"AttributeError: 'Subscription' object has no attribute 'publish'"),
+        "a subscription only receives messages; create_publisher(TYPE, '/topic', 10) makes what publishes",
+    ),
+    (
+        re.compile(r"AttributeError: 'Publisher' object has no attribute '(\w+)'"),
+        "a publisher has publish(message) and no {0}; what is received comes to the callback of a subscription",
+    ),
+    (
+        re.compile(r"TypeError: descriptor '__init__' requires a 'super' object"),
+        "brackets are missing after super: super().__init__('NODE_NAME')",
+    ),
+    (
+        re.compile(
+            r"AttributeError: '(\w+)' object has no attribute "
+            r"'_(?:default_callback_group|logger|clock|parameters|parameter_overrides|Node__\w+)'"
+        ),
+        "super().__init__('NODE_NAME') must come first in {0}.__init__: it makes the node",
+    ),
+    (
+        re.compile(r"RuntimeError: Subscription\.__init__\(\): callback should be"),
+        "the callback of a subscription is called with the message; as a method it is def on_message(self, message)",
+    ),
+    (
+        re.compile(r"TypeError: rclpy_resolve_name\(\): incompatible function arguments"),
+        "the order is create_publisher(TYPE, '/topic', 10) and create_subscription(TYPE, '/topic', callback, 10)",
+    ),
+    (
+        re.compile(r"TypeError: Expected <class '[\w.]+'>, got <class '[\w.]+\.Metaclass_(\w+)'>"),
+        "that is the class: with brackets, {0}(), it makes a message",
+    ),
+    (
+        re.compile(
+            r"TypeError: Expected <class '[\w.]+\.(\w+)'>, got <class '(?:str|int|float|bool|list|dict|tuple)'>"
+        ),
+        "publish() sends messages only: make a {0}(), fill in its fields, and publish that",
+    ),
+    (
+        re.compile(r"ImportError: cannot import name '(\w+)' from '(\w+_msgs)'"),
+        "message types are in the module {1}.msg: from {1}.msg import {0}",
+    ),
+    (
+        re.compile(r"AttributeError: 'Duration' object has no attribute"),
+        "in seconds it is duration.nanoseconds / 1e9",
+    ),
+    (
+        re.compile(r"AttributeError: 'Time' object has no attribute '(?:seconds|secs|sec|to_sec|nanosec)'"),
+        "in seconds it is time.nanoseconds / 1e9; seconds_nanoseconds() gives both parts",
+    ),
+    (
+        re.compile(r"TypeError: bad argument type for built-in operation"),
+        "a field of the message holds a value of another type, such as a number where a text belongs: str(value)",
+    ),
+    (
+        re.compile(r"TypeError: 'property' object is not iterable"),
+        "rclpy.spin() takes a node, not its class: with brackets, MyNode(), it is one",
+    ),
+    (
+        re.compile(r"\b(?:Lookup|Extrapolation)Exception"),
+        "that transform is not there (yet): nodes hear transforms later than the first data. Catch TransformException "
+        "of tf2_ros, and skip the message or keep it and try again",
+    ),
+    (
+        re.compile(r"\bConnectivityException"),
+        "no transform connects the two frames (yet): ros2 run tf2_tools view_frames draws which are connected",
+    ),
+    (
+        re.compile(r"\bInvalidArgumentException: Invalid argument .* passed to"),
+        "frame names are not empty and do not begin with a slash",
+    ),
+    (
+        re.compile(r"RCLError: .*(?:context is invalid|context is not valid)|InvalidHandle|cannot use Destroyable"),
+        "rclpy.shutdown(), or destroy_node(), was called before: nothing can be published or read after it",
+    ),
+    (
+        re.compile(r"NotInitializedException"),
+        "rclpy.init() must be called before the first node is made",
+    ),
+    (
+        re.compile(r"TypeError: Node\.create_(?:subscription|publisher)\(\) missing 1 required .*'qos_profile'"),
+        "the last argument, the depth of the queue, is missing, such as 10",
+    ),
+    (
+        re.compile(r"TypeError: Expected QoSProfile or int, but received"),
+        "the order is create_publisher(TYPE, '/topic', 10) and create_subscription(TYPE, '/topic', callback, 10); the "
+        "last one is the depth, a number, and further arguments are given by their names",
+    ),
+    (
+        re.compile(r"TypeError: Node\.create_(subscription|publisher)\(\) takes \d+ positional arguments but \d+ were"),
+        "what follows the depth is given by its name, as callback_group=... is",
+    ),
+    (
+        re.compile(
+            r"TypeError: Node\.create_timer\(\) missing|"
+            r"TypeError: float\(\) argument must be .* not '\w*(?:function|method)'"
+        ),
+        "the order is create_timer(PERIOD in seconds, callback)",
+    ),
+    (
+        re.compile(r"TypeError: (?:\w+\.)?(\w+)\(\) missing 1 required positional argument: 'self'"),
+        "{0} is called on the class, not on an object: self.{0}() inside of the class",
+    ),
+    (
+        re.compile(
+            r"TypeError: \w+\.((?!__|create_)\w*(?:goal|cancel|accepted|execute)\w*)\(\) missing 1 required positional "
+            r"argument: '(?!self')\w+'"
+        ),
+        "an action server calls each of its callbacks with one argument beside self, goal_callback with the goal and "
+        "the others with the goal handle: {0} asks for more",
+    ),
+    (
+        re.compile(
+            r"TypeError: (?!Node\b|Publisher\b)\w+\.(?!__|create_|info|log)(\w+)\(\) missing 1 required positional "
+            r"argument: '(\w+)'"
+        ),
+        "a timer calls its callback without arguments, a subscription with the message: def {0}(self) is one for a "
+        "timer, def {0}(self, {1}) one for a subscription",
+    ),
+    (
+        re.compile(r"TypeError: spin_once\(\) takes 1 positional argument"),
+        "the time is given by its name: spin_once(node, timeout_sec=0.1)",
+    ),
+    (
+        re.compile(r"RuntimeError: Executor is already spinning|ValueError: generator already executing"),
+        "a callback is called by spin(); inside of it the node must not be spun again",
+    ),
+    (
+        re.compile(
+            r"ImportError: cannot import name 'Node' from 'rclpy'|No module named 'rclpy\.Node'|"
+            r"module 'rclpy' has no attribute 'Node'"
+        ),
+        "the class is in the module rclpy.node: from rclpy.node import Node",
+    ),
+    (
+        re.compile(r"AttributeError: module 'rclpy' has no attribute '(create_\w+|get_\w+)'"),
+        "{0} belongs to a node: self.{0}(...) inside of its class",
+    ),
+    (
+        re.compile(r"ModuleNotFoundError: No module named '(std|sensor|geometry|nav)_msg(?:\.msg)?'"),
+        "the package is called {0}_msgs: from {0}_msgs.msg import ...",
+    ),
+    (
+        re.compile(r"ModuleNotFoundError: No module named '(\w+_msgs)\.(?!msg')\w+'"),
+        "message types are in the module {0}.msg",
+    ),
+    (
+        re.compile(r"ImportError: cannot import name '(\w+)' from '(\w+_msgs\.msg)'"),
+        "{1} has no message of that name; capitals count, as in LaserScan, and ros2 interface package lists the names",
+    ),
+    (
+        re.compile(r"AttributeError: '(?:function|method|builtin_function_or_method)' object has no attribute '(\w+)'"),
+        "brackets are missing: what stands before .{0} must be called, as in self.get_logger().info(...)",
+    ),
+    (
+        re.compile(r"AttributeError: 'Time' object has no attribute 'nanoseconds'"),
+        "the stamp of a message has sec and nanosec; in seconds it is stamp.sec + stamp.nanosec / 1e9, and "
+        "rclpy.time.Time.from_msg(stamp) makes a Time of it",
+    ),
+    (
+        re.compile(r"'NoneType' object has no attribute '(\w+)'"),
+        "what stands before .{0} is None: it was never set, or not yet (no message has come), or it is the result of a "
+        "function that returns nothing",
+    ),
+    (
+        re.compile(
+            r"ValueError: (min|max)\(\) (?:iterable argument|arg) is (?:an )?empty|"
+            r"ValueError: zero-size array to reduction operation (min|max)"
+        ),
+        "the list is empty: the condition has kept no value at all",
+    ),
+    (
+        re.compile(r"TypeError: 'Metaclass_(\w+)' object|TypeError: 'property' object is not subscriptable"),
+        "that is the class of the message; the message itself is the callback's argument",
+    ),
+    (
+        re.compile(r"InvalidTopicNameException|InvalidNodeNameException"),
+        "names consist of letters, digits and _, topics also of /; there are no spaces or hyphens in them",
+    ),
+    (
+        re.compile(
+            r"UnboundLocalError: .*variable '(min|max|sum|len|abs|round|list|range|sorted|float|int|str|any|all)'"
+        ),
+        "the function assigns to {0}, so {0} is its own variable everywhere in it, and Python's {0}() is hidden: call "
+        "the variable something else",
+    ),
+    (
+        re.compile(r"UnboundLocalError: .*variable '(\w+)'"),
+        "a function that assigns to {0} has a {0} of its own; what is to last is kept as self.{0}",
+    ),
+    (
+        re.compile(r"NameError: name 'self' is not defined"),
+        "the method has no parameter self, or the line stands outside of a method",
+    ),
+    (
+        re.compile(
+            r"AttributeError: '(?!(?:Twist|LaserScan|String|Float\d+|Odometry|Vector3|Header|Subscription|Publisher|"
+            r"Timer|Clock|Time|Duration|Parameter|Point|Quaternion|Pose|Image|Imu|Range|Buffer|Future|Client|Service|"
+            r"ServerGoalHandle|ClientGoalHandle|ROSClock|RcutilsLogger|Node|QoSProfile|Executor|Transform|\w+Stamped|"
+            r"\w+Executor|OccupancyGrid|MapMetaData|Path|CameraInfo|PointCloud2|JointState|CvBridge|Bool|U?Int\d+|Thread|"
+            r"Action\w+|\w+_Request|\w+_Response|\w+_Goal|\w+_Result|\w+_Feedback|TransformListener)')"
+            r"(?=[A-Z])(\w+)' "
+            r"object has no attribute '(\w+)'"
+        ),
+        "self.{1} is not set when it is used: set it in __init__ before timers and callbacks, spelt the same way",
+    ),
+    (
+        re.compile(r"TypeError: can only concatenate str|TypeError: must be str, not"),
+        "one side is a text, such as '3': int(text) or float(text) makes a number of it; a number becomes a part of "
+        "a text in an f-string: f'{{value:.2f}}'",
+    ),
+    (
+        re.compile(r"IndentationError: unexpected indent"),
+        "this line is indented further than the lines it belongs to",
+    ),
+    (
+        re.compile(r"IndentationError: expected an indented block"),
+        "what belongs to the line above is indented by four more spaces",
+    ),
+    (
+        re.compile(r"IndentationError: unindent does not match|TabError"),
+        "the lines of one block must begin in the same column, with spaces only",
+    ),
+    (re.compile(r"RuntimeError: Context\.init\(\) must only be called once"), "call rclpy.init() once, at the start"),
+    (re.compile(r"EOFError: EOF when reading a line"), "there is no keyboard here: do not call input()"),
+)
+
+
+# Fields of the messages that beginners meet, for misspelt ones. Source: the packages of common_interfaces.
+FIELDS = {
+    "LaserScan": (
+        "header", "angle_min", "angle_max", "angle_increment", "time_increment", "scan_time", "range_min", "range_max",
+        "ranges", "intensities",
+    ),
+    "Twist": ("linear", "angular"),
+    "Vector3": ("x", "y", "z"),
+    "Odometry": ("header", "child_frame_id", "pose", "twist"),
+    "Header": ("stamp", "frame_id"),
+    "String": ("data",), "Float32": ("data",), "Float64": ("data",), "Bool": ("data",), "Int32": ("data",),
+    "Int64": ("data",), "UInt8": ("data",), "UInt32": ("data",),
+    "Point": ("x", "y", "z"), "Quaternion": ("x", "y", "z", "w"), "Pose": ("position", "orientation"),
+    "PoseStamped": ("header", "pose"), "PointStamped": ("header", "point"),
+    "TransformStamped": ("header", "child_frame_id", "transform"), "Transform": ("translation", "rotation"),
+    "TwistStamped": ("header", "twist"), "PoseWithCovariance": ("pose", "covariance"),
+    "TwistWithCovariance": ("twist", "covariance"),
+    "Imu": (
+        "header", "orientation", "orientation_covariance", "angular_velocity", "angular_velocity_covariance",
+        "linear_acceleration", "linear_acceleration_covariance",
+    ),
+    "Image": ("header", "height", "width", "encoding", "is_bigendian", "step", "data"),
+    "CameraInfo": ("header", "height", "width", "distortion_model", "d", "k", "r", "p"),
+    "OccupancyGrid": ("header", "info", "data"),
+    "MapMetaData": ("map_load_time", "resolution", "width", "height", "origin"),
+    "JointState": ("header", "name", "position", "velocity", "effort"),
+}  # fmt: skip
+# What is looked for one level too high.
+INSIDE = {
+    ("Odometry", "position"): "pose.pose.position", ("Odometry", "orientation"): "pose.pose.orientation",
+    ("Odometry", "linear"): "twist.twist.linear", ("Odometry", "angular"): "twist.twist.angular",
+    ("Odometry", "x"): "pose.pose.position.x", ("Odometry", "y"): "pose.pose.position.y",
+    ("PoseWithCovariance", "position"): "pose.position", ("PoseWithCovariance", "orientation"): "pose.orientation",
+    ("PoseWithCovariance", "x"): "pose.position.x", ("PoseWithCovariance", "y"): "pose.position.y",
+    ("TwistWithCovariance", "linear"): "twist.linear", ("TwistWithCovariance", "angular"): "twist.angular",
+    ("Pose", "x"): "position.x", ("Pose", "y"): "position.y", ("Twist", "x"): "linear.x", ("Twist", "z"): "angular.z",
+    ("Odometry", "stamp"): "header.stamp", ("LaserScan", "stamp"): "header.stamp", ("Imu", "stamp"): "header.stamp",
+    ("TransformStamped", "translation"): "transform.translation",
+    ("TransformStamped", "rotation"): "transform.rotation",
+    ("PoseStamped", "position"): "pose.position", ("PointStamped", "x"): "point.x", ("PointStamped", "y"): "point.y",
+    ("OccupancyGrid", "resolution"): "info.resolution", ("OccupancyGrid", "width"): "info.width",
+    ("OccupancyGrid", "height"): "info.height", ("OccupancyGrid", "origin"): "info.origin",
+    ("OccupancyGrid", "frame_id"): "header.frame_id", ("Transform", "x"): "translation.x",
+    ("LaserScan", "frame_id"): "header.frame_id",
+}  # fmt: skip
+NO_FIELD = re.compile(r"AttributeError: '(\w+)' object has no attribute '(\w+)'")
+
+
+def _field(error: str) -> str:
+    """Return the fields of the message whose field is misspelt; empty if it is another error."""
+    match = NO_FIELD.search(error)
+    if match is None or match.group(1) not in FIELDS:
+        return ""
+    kind, name = match.groups()
+    known = FIELDS[kind]
+    if near := nearest_name(name, known) or (known[0] if len(known) == 1 else ""):
+        return f"the field of a {kind} is called {near}"
+    if path := INSIDE.get((kind, name)):
+        return f"a {kind} has the fields {', '.join(known)}; {name} is in .{path}"
+    return f"a {kind} has the fields {', '.join(known)}"
+
+
+LOOKS: tuple[Callable[[str, str], str], ...] = (
+    syntax, import_fault, attributes, arguments, own_arguments, operands, lists, calls, unknown_name,
+)  # fmt: skip
+
+
+def meaning(error: str, code: str = "") -> str:
+    """Return what to change, given the first line of an error as Python prints it; empty if unknown.
+
+    `code` is the line of the program at the end of the traceback.
+    """
+    known = (
+        transform_fault(error),
+        *(look(error, code) for look in LOOKS),
+        _listed(error, libraries.MEANINGS),
+        _field(error),
+        _listed(error, values.MEANINGS),
+        _listed(error, MEANINGS),
+    )
+    return next(filter(None, known), "")
+
+
+def _listed(error: str, meanings: Iterable[tuple[re.Pattern[str], str]]) -> str:
+    found = ((pattern.search(error), words) for pattern, words in meanings)
+    return next((words.format(*match.groups()) for match, words in found if match), "")

@@ -1,0 +1,88 @@
+"""The places where a Python file assigns what is no float to a floating-point field: a whole number, a text.
+
+rclpy does not convert the value, and without ROS_PYTHON_CHECK_FIELDS=1 it does not complain either: `twist.linear.x =
+1` is sent as 0, and so is "0.5". Kinds of submissions that are Python record these places as facts of a run; the
+diagnosis mentions them if a check failed (`grader/score/score.py`).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import Any
+
+from gz_course.grader.feedback.facts.numpy_numbers import numpy_numbers
+from gz_course.grader.feedback.facts.syntax import Places, places_in, walk
+
+MOST = 5  # places reported at most
+
+
+def whole_numbers(content: bytes, fields: dict[str, set[str]]) -> Places:
+    """Return `line`, `field` and the `value` as written, for each such place; nothing if the file is not Python.
+
+    `fields` is what `grader/run/message_fields.py` returns. A zero is sent correctly and is not reported.
+    """
+    return places_in(content, lambda tree: sorted(_places(tree, fields), key=lambda place: place["line"])[:MOST])
+
+
+def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str, Any]]:
+    known = _constants(tree)
+    # A field named `data` may belong to a message of whole numbers or texts, if the file uses one.
+    others = any(isinstance(n, ast.alias) and n.name.startswith(("Int", "UInt", "Bool", "String")) for n in walk(tree))
+    paths = {path for owner in fields.values() for path in owner if "." in path or (len(owner) == 1 and not others)}
+    yield from numpy_numbers(tree)
+    for node in walk(tree):
+        if isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                if isinstance(target, ast.Attribute) and node.value is not None and _whole(node.value, known):
+                    written = ast.unparse(target)
+                    if any(written.endswith(f".{path}") for path in paths if "." in path or _is_message(target, path)):
+                        yield {"line": node.lineno, "field": written, "value": ast.unparse(node.value)}
+        elif isinstance(node, ast.Call):
+            owner = ast.unparse(node.func).rpartition(".")[2]
+            for word in node.keywords:
+                if word.arg in fields.get(owner, ()) and _whole(word.value, known):
+                    yield {"line": word.value.lineno, "field": f"{owner}.{word.arg}", "value": ast.unparse(word.value)}
+
+
+def _is_message(target: ast.Attribute, path: str) -> bool:
+    """Return whether the owner of the field may be a message; attributes of `self` belong to the node."""
+    return target.attr == path and not (isinstance(target.value, ast.Name) and target.value.id == "self")
+
+
+def _constants(tree: ast.Module) -> set[str]:
+    """Return the names and attributes to which only whole numbers other than zero are assigned."""
+    whole: dict[str, bool] = {}
+    for node in walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                name = ast.unparse(target)
+                whole[name] = whole.get(name, True) and _whole(node.value, set())
+        elif isinstance(node, ast.AugAssign | ast.AnnAssign | ast.For | ast.NamedExpr):
+            whole[ast.unparse(node.target)] = False
+        elif isinstance(node, ast.arg):
+            whole[node.arg] = False
+    return {name for name, always in whole.items() if always}
+
+
+def _whole(node: ast.expr, known: set[str]) -> bool:
+    """Return whether the value, or one branch of it, is certainly neither a float nor a zero."""
+    match node:
+        case ast.Constant(value=value):
+            return (type(value) is int and value != 0) or isinstance(value, str) or value is None or value is True
+        case ast.List() | ast.Tuple() | ast.Set() | ast.Dict():
+            return True
+        case ast.Call(func=ast.Attribute(attr="get_parameter" | "declare_parameter")):
+            return True
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
+            return _whole(operand, known)
+        case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult(), left=left, right=right):
+            return _whole(left, known) and _whole(right, known)
+        case ast.IfExp(body=body, orelse=orelse):
+            return _whole(body, known) or _whole(orelse, known)
+        case ast.Call(func=ast.Name(id="int"), args=[_]) | ast.Call(func=ast.Name(id="round"), args=[_], keywords=[]):
+            return True
+        case ast.Name() | ast.Attribute():
+            return ast.unparse(node) in known
+    return False

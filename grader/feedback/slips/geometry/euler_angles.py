@@ -1,0 +1,55 @@
+"""Euler angles of a quaternion in another order than the function takes or gives them."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, walk
+
+MAKES = "euler_from_quaternion"
+HEADING = re.compile(r"yaw|heading|theta|\bth\b")
+ORDER = ("roll", "pitch", "yaw")
+
+
+def _is_euler(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and last_name(node.func) == MAKES
+
+
+def other_angle(tree: ast.AST) -> Iterator[Place]:
+    """Find `yaw, pitch, roll = euler_from_quaternion(q)`, and its first element taken for the heading."""
+    if MAKES in {function.name for function in functions(tree)}:
+        return  # one of the student's own may return them in any order
+    names = {ast.unparse(target) for target, value in assigned(tree) if _is_euler(value)}
+    for node in (each for each in walk(tree) if isinstance(each, ast.Assign)):
+        target, value = node.targets[0], node.value
+        if isinstance(target, ast.Tuple | ast.List) and len(target.elts) == len(ORDER):
+            if _is_euler(value) or ast.unparse(value) in names:
+                for place, each in enumerate(target.elts[:2]):
+                    if HEADING.search(ast.unparse(each).lower()):
+                        yield node.lineno, _said(ast.unparse(each), place)
+        elif isinstance(value, ast.Subscript) and (_is_euler(value.value) or ast.unparse(value.value) in names):
+            index = value.slice.value if isinstance(value.slice, ast.Constant) else None
+            if isinstance(index, int) and index in (0, 1) and HEADING.search(ast.unparse(target).lower()):
+                yield node.lineno, _said(ast.unparse(target), index)
+
+
+def _said(name: str, place: int) -> str:
+    return (
+        f"{name} gets the {ORDER[place]}, which is nearly 0 on flat ground: {MAKES}() returns roll, pitch and yaw, in "
+        "this order"
+    )
+
+
+def other_order(tree: ast.AST) -> Iterator[Place]:
+    """Find `euler_from_quaternion([q.w, q.x, q.y, q.z])`: w is the last one."""
+    for call, name in calls(tree):
+        given = call.args[0] if call.args else None
+        if name == MAKES and isinstance(given, ast.List | ast.Tuple):
+            parts = "".join(last_name(each) for each in given.elts)
+            if sorted(parts) == sorted("xyzw") and parts != "xyzw":
+                yield call.lineno, f"{MAKES}() takes x, y, z, w in this order, and gets {', '.join(parts)}"
+
+
+LOOKS = (other_angle, other_order)

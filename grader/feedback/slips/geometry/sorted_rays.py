@@ -1,0 +1,177 @@
+"""An index into sorted, filtered or reversed ranges that is taken for the number of a ray."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, walk
+
+FINDS = frozenset({"index", "argmin", "nanargmin"})
+ELEMENTWISE = frozenset({"hypot", "abs", "sqrt", "fabs"})
+COPIES = frozenset({"list", "array", "asarray", "tuple"})
+# What was done to the ranges -> what it does to the numbers of their rays.
+DONE = {
+    "sorted": "sorting has changed the order",
+    "filtered": "what was left out has moved the others up",
+    "reversed": "it counts from the last ray",
+}
+
+
+def places_for_rays(tree: ast.AST) -> Iterator[Place]:
+    """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
+    for function in functions(tree):
+        found = dict(_places(function, dict(_changed_lists(function))))
+        stored = [node.id for node in walk(function) if isinstance(node, ast.Name) and _is_store(node)]
+        for node in walk(function):
+            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
+                continue
+            sides = ast.unparse(node.left), ast.unparse(node.right)
+            for one, other in (sides, sides[::-1]):
+                if one in found and "increment" in other and stored.count(one) == 1:
+                    line, what, how = found[one]
+                    yield (
+                        line,
+                        f"{one} is a place in {how} ranges ({what[:50]}): {DONE[how]}, so {one} is not the number of a "
+                        "ray; keep pairs (range, number of the ray), or look for the index in scan.ranges itself",
+                    )
+                    return
+
+
+def _is_store(node: ast.Name) -> bool:
+    return isinstance(node.ctx, ast.Store)
+
+
+def _changed_lists(function: ast.FunctionDef) -> Iterator[tuple[str, str]]:
+    """Yield the names of lists of plain ranges that are not as the scan has them, and what was done to them."""
+    for node in walk(function):
+        match node:
+            case ast.Assign(targets=[target], value=value) if how := _done(value, {}):
+                yield ast.unparse(target), how
+            case ast.Expr(value=ast.Call(func=ast.Attribute(value=of, attr="sort" | "reverse" as attr))) if _plain(of):
+                yield ast.unparse(of), "sorted" if attr == "sort" else "reversed"
+            case ast.For(body=[ast.If(body=inner)]) if name := _ranges_of(node):
+                for each in inner:
+                    match each:
+                        case ast.Expr(
+                            value=ast.Call(func=ast.Attribute(value=of, attr="append"), args=[ast.Name(id=a)])
+                        ):
+                            if a == name:
+                                yield ast.unparse(of), "filtered"
+
+
+def _ranges_of(loop: ast.For) -> str:
+    """Return the name of the single range in a loop over ranges; empty if it is another loop."""
+    return loop.target.id if isinstance(loop.target, ast.Name) and _plain(loop.iter) else ""
+
+
+def _done(node: ast.AST, names: dict[str, str]) -> str:
+    """Return what was done to plain ranges in an expression; empty if nothing, or if it is another expression."""
+    if ast.unparse(node) in names:
+        return names[ast.unparse(node)]
+    match node:
+        case ast.Call(args=[given, *_], keywords=[]):
+            name = ast.unparse(node.func).rpartition(".")[2]
+            inner = _done(given, names)
+            if name in COPIES:
+                return inner
+            if name in ("sorted", "sort") and (inner or _plain(given)):
+                return "sorted"
+            if name == "reversed" and (inner or _plain(given)):
+                return "reversed"
+        case ast.ListComp(elt=ast.Name(id=elt), generators=[ast.comprehension(target=ast.Name(id=of)) as loop]):
+            if elt == of and _plain(loop.iter):
+                return "filtered" if loop.ifs else ""
+        case ast.Subscript(value=of, slice=ast.Compare() | ast.Call() | ast.BinOp(op=ast.BitAnd())) if _plain(of):
+            return "filtered" if not isinstance(node.slice, ast.Call) or "isfinite" in ast.unparse(node.slice) else ""
+        case ast.Subscript(value=of, slice=ast.Slice(lower=None, upper=None, step=ast.UnaryOp(op=ast.USub()))):
+            return "reversed" if _plain(of) else ""
+    return ""
+
+
+def _plain(node: ast.AST) -> bool:
+    """Return whether an expression is the ranges of a scan, and nothing beside them."""
+    if isinstance(node, ast.Call):
+        return ast.unparse(node.func).rpartition(".")[2] in COPIES and bool(node.args) and _plain(node.args[0])
+    return isinstance(node, ast.Attribute | ast.Name) and ast.unparse(node).rpartition(".")[2] == "ranges"
+
+
+def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[str, tuple[int, str, str]]]:
+    """Yield each name that holds a place in such a list, with the line, the expression and what was done to it."""
+    for node in walk(function):
+        match node:
+            case (
+                ast.For(iter=call, target=ast.Tuple(elts=[index, *_]))
+                | ast.comprehension(iter=call, target=ast.Tuple(elts=[index, *_]))
+            ):
+                match call:
+                    case ast.Call(func=ast.Name(id="enumerate"), args=[given]) if how := _done(given, names):
+                        yield ast.unparse(index), (call.lineno, ast.unparse(call), how)
+            case ast.Assign(targets=[target], value=ast.Call(func=ast.Attribute(attr=name, value=owner)) as call):
+                given = owner if name == "index" or not call.args else call.args[0]
+                if name in FINDS and (how := _done(given, names)):
+                    yield ast.unparse(target), (node.lineno, ast.unparse(call), how)
+
+
+def places_in_masked(tree: ast.AST) -> Iterator[Place]:
+    """Find `angles[np.argmin(ranges[valid])]`: the place counts in what is left, and angles has all rays."""
+    for function in functions(tree):
+        masked: dict[str, str] = {}
+        found: dict[str, tuple[str, str]] = {}
+        for node in walk(function):
+            for target, value in assigned(node) if isinstance(node, ast.Assign) else ():
+                name = ast.unparse(target)
+                if mask := _mask(value, masked):
+                    masked[name] = mask
+                if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
+                    found[name] = (ast.unparse(value), mask)
+        for name, line in _times_increment(function):
+            if name in found:
+                what, mask = found[name]
+                yield (
+                    line,
+                    f"{name} is a place among those that {mask[:30]} has left ({what[:50]}), not the number of a ray: "
+                    "compute the angles of all rays, and leave the same ones out of both",
+                )
+                return
+        for node in (each for each in walk(function) if isinstance(each, ast.Subscript)):
+            of, place = ast.unparse(node.value), node.slice
+            what, mask = found.get(ast.unparse(place), ("", ""))
+            if isinstance(place, ast.Call) and _finds(place):
+                what, mask = ast.unparse(place), _mask(place.args[0], masked)
+            whole = isinstance(node.value, ast.Name) or of.endswith(".ranges")
+            if mask and whole and of not in masked and isinstance(node.ctx, ast.Load):
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]}: {what[:50]} is a place among those that {mask[:30]} has left, and {of} "
+                    f"has all rays, so it is another ray; use {of}[{mask[:30]}]",
+                )
+                return
+
+
+def _times_increment(function: ast.FunctionDef) -> Iterator[tuple[str, int]]:
+    """Yield each factor of an angle_increment, with its line."""
+    for node in walk(function):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+            sides = ast.unparse(node.left), ast.unparse(node.right)
+            yield from ((one, node.lineno) for one, other in (sides, sides[::-1]) if other.endswith("angle_increment"))
+
+
+def _finds(call: ast.Call) -> bool:
+    return ast.unparse(call.func).rpartition(".")[2] in ("argmin", "nanargmin", "argmax") and len(call.args) == 1
+
+
+def _mask(node: ast.expr, masked: dict[str, str]) -> str:
+    """Return by which mask an array is only a part, such as `ok` of `ranges[ok]`; empty if it is whole."""
+    text = ast.unparse(node)
+    if isinstance(node, ast.Call) and last_name(node.func) in ELEMENTWISE and node.args:
+        masks = {_mask(each, masked) for each in node.args}
+        return masks.pop() if len(masks) == 1 else ""
+    if isinstance(node, ast.Subscript):
+        part = node.slice
+        name = isinstance(part, ast.Name) and not part.id.startswith(("i", "k", "n", "j"))
+        return ast.unparse(part) if name or isinstance(part, ast.Compare) else ""
+    return masked.get(text, "")
+
+
+LOOKS = (places_for_rays, places_in_masked)

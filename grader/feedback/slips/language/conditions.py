@@ -1,0 +1,219 @@
+"""Conditions that hold always or never: of two bounds, of a name that stays None, of a name that is made None again."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, is_none, walk
+from gz_course.grader.feedback.slips.language.unreached import blocks
+
+ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
+MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}
+
+
+def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
+    """Find `x > 0 or x < 5`, which always holds, and `x > 5 and x < 0`, which never does."""
+    numbers = named_numbers(tree)
+    for node in walk(tree):
+        match node:
+            case ast.Compare(left=low, ops=[ast.Lt() | ast.LtE(), ast.Lt() | ast.LtE()], comparators=[_, high]):
+                if _order(low, high, numbers) > 0:
+                    code = ast.unparse(node)[:70]
+                    yield node.lineno, f"{code} never holds: the first bound is larger than the second one"
+        if not isinstance(node, ast.BoolOp) or len(node.values) != 2:
+            continue
+        bounds = [bound for each in node.values if (bound := _bound(each))]
+        if len(bounds) != 2 or bounds[0][0] != bounds[1][0] or bounds[0][1] == bounds[1][1]:
+            continue
+        (name, _, low), (_, _, high) = sorted(bounds, key=lambda bound: not bound[1])  # what is above `low` first
+        order = _order(low, high, numbers)
+        code = ast.unparse(node)[:70]
+        if isinstance(node.op, ast.Or) and order < 0:
+            yield (
+                node.lineno,
+                f"{code} holds for every {name}, because one of the two always does: and joins two bounds",
+            )
+        elif isinstance(node.op, ast.And) and order > 0:
+            yield node.lineno, f"{code} never holds: no {name} is above the larger bound and below the smaller one"
+
+
+def the_same_bound(tree: ast.AST) -> Iterator[Place]:
+    """Find `low <= x <= low`, which only one value meets, or none."""
+    for node in walk(tree):
+        match node:
+            case ast.Compare(left=low, ops=[one, other], comparators=[_, high]) if type(one) in MIRRORED:
+                same = (type(one) in ABOVE) == (type(other) in ABOVE) and ast.unparse(low) == ast.unparse(high)
+            case ast.BoolOp(op=ast.And(), values=[one, other]):
+                bounds = [bound for each in (one, other) if (bound := _bound(each))]
+                texts = [(bound[0], ast.unparse(bound[2])) for bound in bounds]
+                same = len(texts) == 2 and texts[0] == texts[1] and bounds[0][1] != bounds[1][1]
+            case _:
+                continue
+        if same:
+            code = ast.unparse(node)[:70]
+            yield node.lineno, f"{code} has the same bound twice, so no other value than that is between: one is wrong"
+
+
+def _bound(node: ast.expr) -> tuple[str, bool, ast.expr] | None:
+    """Return what is compared, whether it is to lie above, and with what; None for other conditions."""
+    if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+        return None
+    left, kind, right = node.left, type(node.ops[0]), node.comparators[0]
+    if kind not in MIRRORED:
+        return None
+    if isinstance(left, ast.Constant) or _is_bound(left):
+        left, kind, right = right, MIRRORED[kind], left
+    return ast.unparse(left), kind in ABOVE, right
+
+
+def _is_bound(node: ast.expr) -> bool:
+    return isinstance(node, ast.Attribute) and node.attr in ("range_min", "range_max")
+
+
+def _order(low: ast.expr, high: ast.expr, numbers: Mapping[str, Number]) -> int:
+    """Return -1 if the first bound is the smaller one, 1 if it is the larger one, 0 if nobody knows."""
+    one, other = number(low, numbers), number(high, numbers)
+    if one is not None and other is not None:
+        return (one > other) - (one < other)
+    names = [getattr(each, "attr", "") for each in (low, high)]
+    return {("range_min", "range_max"): -1, ("range_max", "range_min"): 1}.get((names[0], names[1]), 0)
+
+
+def none_for_ever(tree: ast.AST) -> Iterator[Place]:
+    """Find `if self.start is None: self.begin = now` in a file where nothing else than None is put into self.start."""
+    values: dict[str, list[ast.expr]] = {}
+    for target, value in assigned(tree):
+        values.setdefault(ast.unparse(target).rpartition(".")[2], []).append(value)
+    others = {
+        ast.unparse(target).rpartition(".")[2]
+        for node in walk(tree)
+        for target in [getattr(node, "target", None), *[getattr(each, "optional_vars", None) for each in _items(node)]]
+        if isinstance(target, ast.expr) and not isinstance(node, ast.AnnAssign)
+    }
+    for node in walk(tree):
+        name = _asked(node.test) if isinstance(node, ast.If) else ""
+        last = name.rpartition(".")[2]
+        if not name.startswith("self.") or last in others or "setattr" in ast.unparse(tree):
+            continue
+        given = values.get(last, [])
+        if not given or not all(is_none(each) for each in given):
+            continue
+        instead = [ast.unparse(target) for each in node.body for target, _ in assigned(each)]  # type: ignore[attr-defined]
+        if instead:
+            yield (
+                node.lineno,  # type: ignore[attr-defined]
+                f"{name} stays None, because the code below sets {instead[0]} and not {name}: so this holds in "
+                "every call; use one name for both",
+            )
+
+
+def _items(node: ast.AST) -> list[ast.withitem]:
+    return node.items if isinstance(node, ast.With) else []
+
+
+def _asked(test: ast.expr) -> str:
+    """Return the name of `NAME is None` and `not NAME`; empty for other conditions."""
+    match test:
+        case ast.Compare(left=left, ops=[ast.Is() | ast.Eq()], comparators=[ast.Constant(value=None)]):
+            return ast.unparse(left)
+        case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute() as operand):
+            return ast.unparse(operand)
+    return ""
+
+
+def none_again(tree: ast.AST) -> Iterator[Place]:
+    """Find `start = None` and then `if start is None:` in one block, with nothing in between that sets the name."""
+    for block in blocks(tree):
+        none: dict[str, int] = {}
+        for statement in block:
+            name = _asked(statement.test) if isinstance(statement, ast.If) else ""
+            if name in none:
+                yield (
+                    statement.lineno,
+                    f"{name} is None here in every call, because line {none[name]} makes it None each time: what is "
+                    "to last from call to call is set once, outside of the function that is called (self.NAME)",
+                )
+                return
+            changed = {ast.unparse(target) for target, _ in assigned(statement)}
+            changed |= {ast.unparse(each.target) for each in walk(statement) if hasattr(each, "target")}
+            none = {each: line for each, line in none.items() if each not in changed}
+            match statement:
+                case ast.Assign(targets=[ast.Name(id=made)], value=ast.Constant(value=None)):
+                    none[made] = statement.lineno
+
+
+def implied(tree: ast.AST) -> Iterator[Place]:
+    """Find `elif x >= 5:` below `if x >= 0:`, which leaves nothing for it."""
+    numbers = named_numbers(tree)
+    for node in walk(tree):
+        if not isinstance(node, ast.If) or len(node.orelse) != 1 or not isinstance(node.orelse[0], ast.If):
+            continue
+        other = node.orelse[0]
+        one, two = _bound(node.test), _bound(other.test)
+        if one is None or two is None or one[:2] != two[:2]:
+            continue
+        wide, narrow = number(one[2], numbers), number(two[2], numbers)
+        if wide is None or narrow is None or wide == narrow:
+            continue
+        if (wide < narrow) == one[1]:
+            yield (
+                other.lineno,
+                f"elif {ast.unparse(other.test)[:60]}: is never reached: where it holds, {ast.unparse(node.test)[:60]} "
+                "holds, too, and the first condition that holds is taken; ask for the narrower one first",
+            )
+
+
+def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
+    """Find `deadline = now + Duration(seconds=5)` and then `now < deadline` in one call."""
+    for function in functions(tree):
+        ends: dict[str, tuple[int, str]] = {}
+        for statement in function.body:
+            match statement:
+                case ast.Assign(targets=[target], value=ast.BinOp(left=begin, op=ast.Add())):
+                    ends[ast.unparse(target)] = statement.lineno, ast.unparse(begin)
+                    continue
+            for node in walk(statement):
+                if not isinstance(node, ast.Compare) or len(node.ops) != 1 or type(node.ops[0]) not in MIRRORED:
+                    continue
+                sides = [ast.unparse(node.left), ast.unparse(node.comparators[0])]
+                for one, other in (sides, sides[::-1]):
+                    if one in ends and ends[one][1] == other and "now" in other:
+                        yield (
+                            ends[one][0],
+                            f"{one} is computed again from {other} in every call, so it is always ahead, and line "
+                            f"{node.lineno} always gives the same: set it once, in the first call",
+                        )
+                        return
+
+
+def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
+    """Find `if late and not self.moving:` where self.moving begins as True and only that block changes it."""
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        changes: dict[str, list[tuple[ast.expr, ast.expr]]] = {}
+        for target, value in assigned(owner):
+            changes.setdefault(ast.unparse(target), []).append((target, value))
+        for node in walk(owner):
+            if not isinstance(node, ast.If) or not isinstance(node.test, ast.BoolOp):
+                continue
+            if not isinstance(node.test.op, ast.And):
+                continue
+            inside = {id(each) for statement in node.body for each in walk(statement)}
+            for part in node.test.values:
+                negated = isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not)
+                name = ast.unparse(part.operand if isinstance(part, ast.UnaryOp) else part)
+                others = [value for target, value in changes.get(name, []) if id(target) not in inside]
+                if len(others) == 1 and len(changes[name]) > 1 and isinstance(others[0], ast.Constant):
+                    first = others[0].value
+                    if isinstance(first, bool) and first == negated:
+                        yield (
+                            node.lineno,
+                            f"the code below this condition never runs: {name} is {first} from the start, and only "
+                            "these lines change it",
+                        )
+
+
+LOOKS = (
+    of_two_bounds, the_same_bound, none_for_ever, none_again, implied, deadline_of_now, flag_of_its_own_block,
+)  # fmt: skip

@@ -1,0 +1,177 @@
+"""Values that are not what they seem: generators that are used up, one object under two names, identity for "
+"equality.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, walk
+
+ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
+WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
+SILENT = frozenset({"debug", "info"})
+
+
+def used_up(tree: ast.AST) -> Iterator[Place]:
+    """Find a generator that is gone through twice: the second time it is empty."""
+    for function in functions(tree):
+        for node in walk(function):
+            target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
+            if not isinstance(target, ast.Name) or not isinstance(node, ast.Assign) or not _once(node.value):
+                continue
+            if sum(_is_store(each, target.id) for each in walk(function)) > 1:
+                continue
+            uses = sorted({line for each in walk(function) if (line := _goes_through(each, target.id))})
+            if len(uses) > 1:
+                yield (
+                    uses[1],
+                    f"{target.id} of line {node.lineno} can be gone through once only, which line {uses[0]} does: "
+                    f"here it "
+                    f"is empty; a list, [...] or list(...), can be read again",
+                )
+
+
+def _once(node: ast.expr) -> bool:
+    return isinstance(node, ast.GeneratorExp) or (
+        isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ONCE
+    )
+
+
+def _is_store(node: ast.AST, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name and isinstance(node.ctx, ast.Store)
+
+
+def _goes_through(node: ast.AST, name: str) -> int:
+    """Return the line in which a node goes through a whole iterable; 0 if it does not."""
+    if isinstance(node, ast.For | ast.comprehension) and isinstance(node.iter, ast.Name) and node.iter.id == name:
+        return node.iter.lineno
+    whole = isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in WHOLE_USE
+    if isinstance(node, ast.Call) and whole and name in [ast.unparse(each) for each in node.args]:
+        return node.lineno
+    return 0
+
+
+def same_object(tree: ast.AST) -> Iterator[Place]:
+    """Find `hit.header = scan.header` and then `hit.header.frame_id = ...`, which changes the scan too."""
+    for function in functions(tree):
+        for node in walk(function):
+            if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
+                continue
+            target, value = ast.unparse(node.targets[0]), ast.unparse(node.value)
+            if not isinstance(node.targets[0], ast.Attribute) or value.rpartition(".")[2] not in PARTS:
+                continue
+            for each in walk(function):
+                if not isinstance(each, ast.Assign) or each.lineno <= node.lineno:
+                    continue
+                if ast.unparse(each.targets[0]).startswith(f"{target}."):
+                    yield (
+                        each.lineno,
+                        f"{target} is {value} itself since line {node.lineno}, no copy: this line changes both; set "
+                        "the fields one by one, or copy.deepcopy() it",
+                    )
+                    return
+
+
+PARTS = frozenset(
+    {"header", "stamp", "pose", "position", "orientation", "twist", "linear", "angular", "point", "transform"}
+)
+
+
+def identity(tree: ast.AST) -> Iterator[Place]:
+    """Find `is` between values that may be equal without being the same object."""
+    constants = {
+        last_name(target)
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Constant) and type(value.value) in (str, int, float)
+    } - {""}
+    for node in walk(tree):
+        if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Is | ast.IsNot):
+            continue
+        sides = (node.left, node.comparators[0])
+        if any(
+            isinstance(side, ast.Constant) and (side.value is None or isinstance(side.value, bool)) for side in sides
+        ):
+            continue
+        for side in sides:
+            literal = isinstance(side, ast.Constant) and type(side.value) in (str, int, float)
+            if literal or last_name(side) in constants:
+                word, sign = ("is", "==") if isinstance(node.ops[0], ast.Is) else ("is not", "!=")
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]}: {word} asks whether both are the same object, {sign} whether they are "
+                    "equal",
+                )
+                break
+
+
+def repeated_rows(tree: ast.AST) -> Iterator[Place]:
+    """Find `[[0] * width] * height`, whose rows are all the same list."""
+    for node in walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
+            inner = node.left.elts[0] if len(node.left.elts) == 1 else None
+            rows = isinstance(inner, ast.List | ast.ListComp | ast.Dict | ast.Set) or (
+                isinstance(inner, ast.BinOp) and isinstance(inner.left, ast.List)
+            )
+            if rows:
+                yield (
+                    node.lineno,
+                    f"{ast.unparse(node)[:60]} repeats one and the same row: a change of one row changes all; "
+                    "[[0] * width for _ in range(height)] makes a row each time",
+                )
+
+
+def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
+    """Find `Time(seconds=stamp.sec)`, which leaves the nanoseconds out."""
+    for node in walk(tree):
+        if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] not in ("Time", "Duration"):
+            continue
+        given = {each.arg: ast.unparse(each.value) for each in node.keywords}
+        if given.get("seconds", "").endswith(".sec") and not {"nanoseconds", "nanosec"} & set(given):
+            yield (
+                node.lineno,
+                f"{ast.unparse(node)[:60]} has the whole seconds only, and the stamp's nanosec is left out: "
+                "Time.from_msg(stamp) takes both",
+            )
+
+
+def python_logging(tree: ast.AST) -> Iterator[Place]:
+    """Find lines for the log that Python's own logging swallows, because nothing has set it up."""
+    imported = any(isinstance(node, ast.Import) and any(a.name == "logging" for a in node.names) for node in walk(tree))
+    calls = {ast.unparse(node.func): node.lineno for node in walk(tree) if isinstance(node, ast.Call)}
+    if not imported or any("basicConfig" in call or "addHandler" in call for call in calls):
+        return
+    for call, line in calls.items():
+        owner, _, method = call.rpartition(".")
+        if method in SILENT and owner and "get_logger" not in owner:
+            yield (
+                line,
+                f"{call}() of Python's logging shows nothing here: the node's log is self.get_logger().info(text)",
+            )
+            return
+
+
+def zero_is_false(tree: ast.AST) -> Iterator[Place]:
+    """Find `if not self.x:` where self.x begins as None and is later set to 0: it asks for None and for 0 alike."""
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        given: dict[str, list[object]] = {}
+        for node in walk(owner):
+            if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant):
+                given.setdefault(ast.unparse(node.targets[0]), []).append(node.value.value)
+        for node in walk(owner):
+            if isinstance(node, ast.If) and isinstance(node.test, ast.UnaryOp) and isinstance(node.test.op, ast.Not):
+                name = ast.unparse(node.test.operand)
+                values = given.get(name, [])
+                zero = next((v for v in values if type(v) in (int, float) and v == 0), None)
+                if None in values and zero is not None:
+                    yield (
+                        node.test.lineno,
+                        f"not {name} holds for {zero}, too, not only for None: {zero} counts as false; ask "
+                        f"{name} is None",
+                    )
+
+
+LOOKS = (
+    used_up, same_object, identity, repeated_rows, whole_seconds_of_a_stamp, python_logging, zero_is_false,
+)  # fmt: skip

@@ -1,0 +1,48 @@
+"""A loop whose condition is of numbers that nothing in the loop changes."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Place, functions, walk
+
+
+def _numbers(test: ast.expr) -> set[str]:
+    """Return the names in a comparison of names and numbers; nothing if it holds anything else."""
+    if not isinstance(test, ast.Compare) or isinstance(test.ops[0], ast.Is | ast.IsNot | ast.In | ast.NotIn):
+        return set()
+    sides = [test.left, *test.comparators]
+    names = {each.id for each in sides if isinstance(each, ast.Name)}
+    numbers = [each for each in sides if isinstance(each, ast.Constant) and isinstance(each.value, int | float)]
+    return names if numbers and len(names) + len(numbers) == len(sides) else set()
+
+
+def _leaves(loop: ast.While) -> bool:
+    """Return whether a loop is left in another way than by a cancellation."""
+    asked = [each for each in walk(loop) if isinstance(each, ast.If) and "cancel" in ast.unparse(each.test)]
+    cancelled = {id(node) for each in asked for part in each.body for node in walk(part)}
+    ways = (ast.Break, ast.Return, ast.Raise, ast.Yield, ast.Await)
+    return any(isinstance(each, ways) and id(each) not in cancelled for each in walk(loop))
+
+
+def never_changes(tree: ast.AST) -> Iterator[Place]:
+    """Find `while left > 0.1:` where left was computed above the loop, and nowhere in it."""
+    for function in functions(tree):
+        shared = {n for each in walk(function) if isinstance(each, ast.Global | ast.Nonlocal) for n in each.names}
+        stores = [n for n in walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
+        for loop in (each for each in walk(function) if isinstance(each, ast.While)):
+            names = _numbers(loop.test)
+            inside = {id(node) for node in walk(loop)}
+            above = [n for n in stores if n.id in names and n.lineno < loop.lineno and id(n) not in inside]
+            changed = {n.id for n in stores if id(n) in inside} | shared
+            if names and not names & changed and {n.id for n in above} == names and not _leaves(loop):
+                last = max(above, key=lambda node: node.lineno)
+                yield (
+                    loop.lineno,
+                    f"nothing in this loop changes {last.id}, which line {last.lineno} has computed, so "
+                    f"`{ast.unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
+                )
+
+
+LOOKS = (never_changes,)

@@ -1,0 +1,214 @@
+"""Suspects in how an action server takes goals: what it refuses, how it ends a cancelled one, what it keeps of one."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, last_name, walk
+
+# Comparisons of a length with a number that tell an empty list from all others.
+TELLS_EMPTY = frozenset({(ast.Eq, 0), (ast.NotEq, 0), (ast.Gt, 0), (ast.LtE, 0), (ast.Lt, 1), (ast.GtE, 1)})
+GROWS = frozenset({"append", "extend", "appendleft"})
+EMPTIES = frozenset({"clear", "pop", "popleft", "remove"})
+
+
+def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
+    """Yield the functions that answer to goals."""
+    for function in functions(tree):
+        if any(isinstance(each, ast.Attribute) and each.attr in ("REJECT", "ACCEPT") for each in walk(function)):
+            yield function
+
+
+def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a length that is compared with another number than the one that tells an empty list."""
+    for function in _judges(tree):
+        for node in walk(function):
+            if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.left, ast.Call):
+                continue
+            limit = node.comparators[0]
+            number = limit.value if isinstance(limit, ast.Constant) else None
+            if ast.unparse(node.left.func) != "len" or not isinstance(number, int):
+                continue
+            if (type(node.ops[0]), number) not in TELLS_EMPTY:
+                what = ast.unparse(node.left.args[0]).rpartition(".")[2] if node.left.args else "the list"
+                yield (
+                    node.lineno,
+                    "goal_length",
+                    f"`{ast.unparse(node)}` refuses goals by the number of their {what}, and not only empty ones: "
+                    "a goal with one is a goal, too",
+                )
+
+
+def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an answer to a goal by which a speed that is the limit itself is too much."""
+    for function in _judges(tree):
+        for test in (each for each in walk(function) if isinstance(each, ast.If | ast.IfExp)):
+            body = " ".join(ast.unparse(each) for each in (test.body if isinstance(test, ast.If) else [test.body]))
+            refuses = "REJECT" in body
+            if refuses == ("ACCEPT" in body):
+                continue
+            for compare, turned in _compares(test.test, False):
+                if _excludes(compare, refuses != turned):
+                    yield (
+                        compare.lineno,
+                        "goal_limit",
+                        f"by `{ast.unparse(compare)}`, a speed that is max_speed itself is refused: only one above it "
+                        "is too fast",
+                    )
+
+
+def _compares(node: ast.AST, turned: bool) -> Iterator[tuple[ast.Compare, bool]]:
+    """Yield the comparisons of a condition, and whether a `not` stands before each."""
+    if isinstance(node, ast.Compare):
+        yield node, turned
+    elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+        yield from _compares(node.operand, not turned)
+    elif isinstance(node, ast.BoolOp):
+        for each in node.values:
+            yield from _compares(each, turned)
+
+
+def _excludes(compare: ast.Compare, refuses: bool) -> bool:
+    """Return whether a comparison with an upper limit refuses the limit itself."""
+    sides = [compare.left, *compare.comparators]
+    for left, op, right in zip(sides, compare.ops, sides[1:], strict=False):
+        speed_first, speed_last = _is_speed(left), _is_speed(right)
+        limit = right if speed_first else left
+        if speed_first == speed_last or isinstance(limit, ast.Constant | ast.UnaryOp):
+            continue
+        strict_above = ast.Lt if speed_first else ast.Gt  # speed < limit: what is accepted by it leaves the limit out
+        wide_above = ast.GtE if speed_first else ast.LtE  # speed >= limit: what is refused by it takes the limit in
+        if isinstance(op, wide_above if refuses else strict_above):
+            return True
+    return False
+
+
+def _is_speed(node: ast.expr) -> bool:
+    return isinstance(node, ast.Attribute) and node.attr == "speed"
+
+
+def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
+    """Find abort() where a cancellation was asked for."""
+    for test in (each for each in walk(tree) if isinstance(each, ast.If)):
+        if "is_cancel_requested" not in ast.unparse(test.test):
+            continue
+        for call in (each for part in test.body for each in walk(part) if isinstance(each, ast.Call)):
+            if isinstance(call.func, ast.Attribute) and call.func.attr == "abort":
+                yield (
+                    call.lineno,
+                    "cancel",
+                    f"{ast.unparse(call)} ends the goal as ABORTED; {ast.unparse(call.func.value)}.canceled() belongs "
+                    "here",
+                )
+
+
+def _fields(tree: ast.AST) -> list[tuple[ast.expr, str | None]]:
+    """Return what is given to fields of messages, by keyword or by assignment, with the name of the field."""
+    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
+    return given + [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
+
+
+def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a distance of a feedback that is made a whole number, where the field is a float."""
+    for value, field in _fields(tree):
+        name = last_name(value.func) if isinstance(value, ast.Call) else ""
+        if field == "distance" and isinstance(value, ast.Call) and len(value.args) == 1 and name in ("round", "int"):
+            yield (
+                value.lineno,
+                "feedback",
+                f"{ast.unparse(value)} is a whole number, and the field distance is a float64, to which rclpy does "
+                "not convert it: the number itself, or float(...), can be sent",
+            )
+
+
+def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an index of a feedback that is a quotient or is made a float, where the field is an int32."""
+    for value, field in _fields(tree):
+        quotient = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Div)
+        broken = quotient or (isinstance(value, ast.Call) and last_name(value.func) == "float")
+        if field in ("waypoint", "visited") and broken:
+            yield (
+                value.lineno,
+                "feedback" if field == "waypoint" else "unsent_result",
+                f"{ast.unparse(value)} is a float, and the field {field} is an int32, which rclpy cannot send it as: "
+                "give it a whole number",
+            )
+        elif field == "waypoint" and isinstance(value, ast.Name) and _has_coordinates(tree, value.id):
+            yield (
+                value.lineno,
+                "feedback",
+                f"{value.id} is a point, and the field waypoint of the feedback is an int32: the index of the waypoint",
+            )
+
+
+def _has_coordinates(tree: ast.AST, name: str) -> bool:
+    """Return whether x and y of something are read."""
+    read = {ast.unparse(each) for each in walk(tree) if isinstance(each, ast.Attribute)}
+    return {f"{name}.x", f"{name}.y"} <= read
+
+
+def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
+    """Yield each function that ends goals, with the attributes that `__init__` alone assigns, and what."""
+    assigned: dict[str, list[tuple[str, str]]] = {}
+    for function in functions(tree):
+        for node in (each for each in walk(function) if isinstance(each, ast.Assign)):
+            for target in node.targets:
+                for each in walk(target):
+                    if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store):
+                        assigned.setdefault(ast.unparse(each), []).append((function.name, ast.unparse(node.value)))
+    once = {name: where[0][1] for name, where in assigned.items() if [each for each, _ in where] == ["__init__"]}
+    for function in functions(tree):
+        if "succeed" in called(function):
+            yield function, {name: value for name, value in once.items() if name.startswith("self.")}
+
+
+def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a list of the node that every goal makes longer, and that nothing empties."""
+    for function, once in _kept(tree):
+        for name in (each for each, value in once.items() if value in ("[]", "list()", "deque()")):
+            uses = [
+                (call.func.attr, call.lineno)
+                for call in walk(tree)
+                if isinstance(call, ast.Call)
+                and isinstance(call.func, ast.Attribute)
+                and ast.unparse(call.func.value) == name
+            ]
+            inside = range(function.lineno, (function.end_lineno or function.lineno) + 1)
+            grows = [line for method, line in uses if method in GROWS and line in inside]
+            deleted = any(isinstance(each, ast.Delete) and name in ast.unparse(each) for each in walk(tree))
+            if grows and not deleted and not any(method in EMPTIES for method, _ in uses):
+                yield (
+                    grows[0],
+                    "anew",
+                    f"{name} keeps what earlier goals have put into it, and this line adds to it: make a new one where "
+                    "a goal is executed",
+                )
+
+
+def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the index of a waypoint that goes on from goal to goal."""
+    for function, once in _kept(tree):
+        for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
+            name = ast.unparse(node.target)
+            indexes = any(
+                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in walk(function)
+            )
+            if once.get(name, "").lstrip("-").isdigit() and indexes:
+                yield (
+                    node.lineno,
+                    "anew",
+                    f"{name} is {once[name]} for the first goal only, and goes on from there for the next one: set it "
+                    f"to {once[name]} where a goal is executed",
+                )
+
+
+LOOKS = (
+    short_lists_refused,
+    limits_excluded,
+    aborted_when_cancelled,
+    whole_distances,
+    broken_indices,
+    lists_that_grow,
+    counters_that_go_on,
+)

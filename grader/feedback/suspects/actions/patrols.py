@@ -1,0 +1,196 @@
+"""Suspects in an action server that drives: when it asks for a cancellation, what it counts, where it thinks it is."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from typing import TypeGuard
+
+from gz_course.grader.feedback.facts.syntax import assigned, called, walk
+
+Suspect = tuple[int, str, str]
+ASKS = "is_cancel_requested"
+ANGLE = re.compile(r"turn|err|angle|diff|delta|alpha|beta")
+STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
+WAITS = frozenset({"sleep", "spin_once", "ok", "time", "monotonic", "now", "get_clock", "wait_for_server"})
+LOGS = frozenset({"get_logger", "debug", "info", "warn", "warning", "error", "print"})
+Loop = ast.While | ast.For
+
+
+def _asks(node: ast.AST) -> list[int]:
+    """Return the lines that ask for a cancellation."""
+    return sorted(each.lineno for each in walk(node) if isinstance(each, ast.Attribute) and each.attr == ASKS)
+
+
+def _askers(tree: ast.AST) -> set[str]:
+    """Return the functions that ask for a cancellation, themselves or by a function that they call."""
+    functions = [each for each in walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
+    found = {each.name for each in functions if _asks(each)}
+    for _ in functions:
+        more = {each.name for each in functions if called(each) & found} - found
+        if not more:
+            break
+        found |= more
+    return found
+
+
+def _asked_by(node: ast.AST) -> TypeGuard[ast.If]:
+    """Return whether a node is an `if` that asks for a cancellation."""
+    return isinstance(node, ast.If) and bool(_asks(node.test))
+
+
+def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `if index == 0 and goal_handle.is_cancel_requested`."""
+    for test in (each for each in walk(tree) if _asked_by(each)):
+        if not isinstance(test.test, ast.BoolOp) or not isinstance(test.test.op, ast.And):
+            continue
+        others = " and ".join(ast.unparse(each) for each in test.test.values if not _asks(each))
+        leaves = any(isinstance(part, ast.Return | ast.Break) for part in test.body)
+        if others and (leaves or "canceled" in called(test)):
+            yield test.lineno, "cancel", f"a cancellation counts only if `{others[:80]}` is true, too"
+
+
+def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop that drives without asking for a cancellation, in a file that asks for it elsewhere."""
+    lines, askers = _asks(tree), _askers(tree)
+    if not lines:
+        return
+    answering = {id(n) for test in walk(tree) if _asked_by(test) for part in test.body for n in walk(part)}
+    for loop in walk(tree):
+        if id(loop) in answering:
+            continue  # it belongs to what is done about a cancellation
+        if not isinstance(loop, Loop) or not called(loop) & STEPS or _asks(loop) or called(loop) & askers:
+            continue
+        if not set().union(*map(called, loop.body)) - WAITS - LOGS:
+            continue  # it only waits, such as for the first message
+        if any(isinstance(each, Loop) and each is not loop and called(each) & STEPS for each in walk(loop)):
+            continue
+        around = any(isinstance(n, Loop) and loop in walk(n) and lines[0] in _asks(n) for n in walk(tree))
+        where = "for each waypoint, " if around else ""
+        when = f"line {lines[0]} asks it {'once ' if around else ''}{where}outside of"
+        yield loop.lineno, "cancel", f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
+
+
+def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a cancelled goal that breaks out of the inner of two loops, where nothing ends the outer one."""
+    for outer in (n for n in walk(tree) if isinstance(n, Loop)):
+        for place, inner in enumerate(outer.body):
+            if not isinstance(inner, Loop) or inner.orelse:
+                continue
+            behind = [each for part in outer.body[place + 1 :] for each in walk(part)]
+            asked = [each for each in walk(inner) if isinstance(each, ast.If) and _asks(each.test)]
+            left = [part for each in asked for part in each.body if isinstance(part, ast.Break)]
+            ahead = any(_asks(part) for part in outer.body[:place])
+            if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
+                yield (
+                    left[0].lineno,
+                    "cancel",
+                    f"this break leaves the inner loop only, and the loop in line {outer.lineno} goes on with the next "
+                    "waypoint: return from execute here, after canceled() and a Twist of zeros",
+                )
+
+
+def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
+    if not called(tree) & {"succeed"}:
+        return  # it executes no goals
+    made: dict[str, list[ast.Assign]] = {}
+    counted = {}
+    for node in walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                made.setdefault(ast.unparse(target), []).append(node)
+        elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
+            counted[ast.unparse(node.target)] = node.lineno
+    handed = {ast.unparse(n.value) for n in walk(tree) if isinstance(n, ast.Assign | ast.keyword)}
+    first = _lines_of_init(tree)
+    for name, line in counted.items():
+        whole, _, field = name.rpartition(".")
+        own = made.get(whole, [])
+        if whole.startswith("self.") and len(own) == 1 and own[0].lineno in first and name not in made:
+            made_by = ast.unparse(own[0].value)
+            if made_by.rpartition(".")[2].startswith("Result("):
+                yield (
+                    own[0].lineno,
+                    "result",
+                    f"{whole} is made once for all goals, and line {line} counts {field} on: {made_by} belongs in "
+                    "the function that executes a goal",
+                )
+        begun = made.get(name, [])
+        if whole == "self" and len(begun) == 1 and begun[0].lineno in first and name in handed:
+            yield (
+                begun[0].lineno,
+                "result",
+                f"{name} is set once for all goals, and line {line} counts it on: reset it where a goal is executed",
+            )
+
+
+def _lines_of_init(tree: ast.AST) -> set[int]:
+    functions = (n for n in walk(tree) if isinstance(n, ast.FunctionDef) and n.name == "__init__")
+    return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
+
+
+def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
+    for node in walk(tree):
+        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+            continue
+        left, limit = ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
+        drives = any(
+            ast.unparse(target).endswith("linear.x") and ast.unparse(value) not in ("0", "0.0")
+            for part in node.body
+            for target, value in assigned(part)
+        )
+        angle = isinstance(node.test.left, ast.Name | ast.Attribute) and ANGLE.search(left)
+        if drives and angle and isinstance(node.test.ops[0], ast.Lt | ast.LtE) and not limit.startswith("-"):
+            yield (
+                node.lineno,
+                "one_side",
+                f"{left} < {limit} is true for every negative {left}, too, however far to the right: compare "
+                f"abs({left})",
+            )
+
+
+def summed_places(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a place that is a sum of velocities, where the odometry says the place itself."""
+    for node in walk(tree):
+        if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+            continue
+        if ".twist.linear" in ast.unparse(node.value) and ast.unparse(node.target).startswith("self."):
+            yield (
+                node.lineno,
+                "summed_place",
+                f"{ast.unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
+                "with it; the place in the frame odom is pose.pose.position of the message",
+            )
+
+
+def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a program that reads the velocity of the odometry, and nowhere its position."""
+    named = {each.attr: each for each in walk(tree) if isinstance(each, ast.Attribute)}
+    if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
+        return
+    whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".twist.twist")}
+    for node in walk(tree):
+        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
+            owner = ast.unparse(node.value)
+            if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:
+                yield (
+                    node.lineno,
+                    "no_place",
+                    f"{ast.unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
+                    "pose.pose.position of the odometry",
+                )
+                return
+
+
+LOOKS = (
+    asked_under_a_condition,
+    velocities_for_places,
+    loops_that_do_not_ask,
+    breaks_of_the_inner_loop,
+    counts_that_go_on,
+    one_side_of_an_angle,
+    summed_places,
+)

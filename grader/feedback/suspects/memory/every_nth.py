@@ -1,0 +1,54 @@
+"""Suspects in counted calls: what is done only in every tenth call of a callback."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.constants import named_numbers, number
+from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, walk
+
+FEWEST = 2
+
+
+def every_nth_call(tree: ast.Module) -> Iterator[Suspect]:
+    """Find `if self.scans % 10 == 0:`, and `if self.scans >= 10:` that sets the counter to 0, of a counter of calls."""
+    numbers = named_numbers(tree)
+    for function in functions(tree):
+        counters = {
+            ast.unparse(node.target): node.lineno
+            for node in walk(function)
+            if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and ast.unparse(node.value) == "1"
+        }
+        zeroed = {
+            ast.unparse(node.targets[0])
+            for node in walk(function)
+            if isinstance(node, ast.Assign) and ast.unparse(node.value) == "0"
+        }
+        for node in (each for each in walk(function) if isinstance(each, ast.If)):
+            match node.test:
+                case (
+                    ast.BinOp(op=ast.Mod(), left=counter, right=limit)
+                    | ast.Compare(left=ast.BinOp(op=ast.Mod(), left=counter, right=limit))
+                ):
+                    counted = ast.unparse(counter) in counters
+                case ast.Compare(left=counter, ops=[ast.GtE() | ast.Eq() | ast.Lt()], comparators=[limit]):
+                    counted = ast.unparse(counter) in zeroed and counters.get(ast.unparse(counter), 1e9) < node.lineno
+                case _:
+                    continue
+            times = number(limit, numbers)
+            if counted and times is not None and times >= FEWEST and _publishes(function, tree):
+                yield (
+                    node.lineno,
+                    "every",
+                    f"{ast.unparse(node.test)[:60]} lets only one in {times:g} calls of {function.name} publish",
+                )
+
+
+def _publishes(function: ast.FunctionDef, tree: ast.Module) -> bool:
+    """Return whether a function publishes, itself or through a function that it calls."""
+    speak = {each.name for each in functions(tree) if any(name == "publish" for _, name in calls(each))}
+    return any(name == "publish" or name in speak for _, name in calls(function))
+
+
+LOOKS = (every_nth_call,)

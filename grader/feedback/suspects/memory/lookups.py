@@ -1,0 +1,31 @@
+"""Suspects in lookups of tf2 whose two frames are exchanged (`exchanged_frames`)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls
+
+
+def exchanged(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a lookup whose target is the frame of a message, and whose source is not."""
+    frames = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith("header.frame_id")}
+    for call, name in calls(tree):
+        given = {each.arg: each.value for each in call.keywords} | dict(
+            zip(("target_frame", "source_frame"), call.args, strict=False)
+        )
+        if name != "lookup_transform" or not {"target_frame", "source_frame"} <= given.keys():
+            continue
+        target, source = (ast.unparse(given[each]) for each in ("target_frame", "source_frame"))
+        of_a_message = [each in frames or each.endswith("header.frame_id") for each in (target, source)]
+        if of_a_message == [True, False]:
+            yield (
+                call.lineno,
+                "exchanged_frames",
+                f"lookup_transform({target}, {source}, ...): the frame into which points are taken comes first, that "
+                "of the message second; here they are exchanged, which gives the inverse",
+            )
+
+
+LOOKS = (exchanged,)

@@ -1,0 +1,339 @@
+"""Suspects in planning: searches that go deep first, ways that run backwards or are never shortened, old poses."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.suspects.steering.headings import HEADING
+
+SHORTENS = frozenset({"pop", "popleft", "remove", "clear"})
+COLLECTS = frozenset({"append", "insert", "appendleft"})
+TURNS_ROUND = frozenset({"reverse", "reversed", "insert", "appendleft"})
+SMALL = re.compile(r"\bu?int8\b|['\"][iu]1['\"]")
+HOLDS = frozenset({"clip", "minimum", "maximum", "min", "max"})
+AIMED = frozenset({"atan2", "arctan2"})
+
+
+def depth_first(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a search for a way that goes on from the cell that was added last."""
+    for function in functions(tree):
+        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
+            for target, value in assigned(loop):
+                if not isinstance(value, ast.Call) or last_name(value.func) != "pop" or value.args:
+                    continue
+                queue = ast.unparse(value.func).rpartition(".")[0]
+                names = {each.id for each in walk(target) if isinstance(each, ast.Name)}
+                added = any(ast.unparse(call.func) == f"{queue}.append" for call, _ in calls(loop))
+                kept = any(isinstance(one, ast.Subscript) and ast.unparse(other) in names for one, other in _set(loop))
+                if queue in ast.unparse(loop.test) and added and kept:
+                    yield (
+                        value.lineno,
+                        "search",
+                        f"{ast.unparse(value)} takes the newest cell of {queue}, so the search runs deep before it "
+                        "looks around: its ways wind and lead to some goal, not to the nearest; the oldest cell, "
+                        "popleft() of a deque, gives the shortest way",
+                    )
+
+
+def _set(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    return ((target, value) for target, value in assigned(tree) if isinstance(value, ast.Name | ast.Tuple))
+
+
+def backwards(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a way that is followed back from its goal to the start, and not turned round."""
+    for function in functions(tree):
+        if called(function) & TURNS_ROUND or "[::-1]" in ast.unparse(function) or _from_the_end(tree):
+            continue
+        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
+            steps = {
+                ast.unparse(target)
+                for target, value in assigned(loop)
+                if isinstance(value, ast.Subscript) and ast.unparse(value.slice) == ast.unparse(target)
+            }
+            for call, name in calls(loop):
+                if name == "append" and call.args and ast.unparse(call.args[0]) in steps:
+                    way = ast.unparse(call.func).rpartition(".")[0]
+                    ahead = ("pop()", "[::-1]", "reverse", "[len(")
+                    if not any(each in ast.unparse(tree) for each in ahead):
+                        yield (
+                            call.lineno,
+                            "way",
+                            f"{ast.unparse(call)} collects the way from the goal back to the start, and nothing turns "
+                            f"it round: its first cells are those at the goal; {way}.reverse() makes it begin here",
+                        )
+
+
+def _from_the_end(tree: ast.AST) -> bool:
+    """Return whether a function takes the last cell of a way, and does not go through it from its first one."""
+    for function in functions(tree):
+        ends = {
+            ast.unparse(each.value)
+            for each in walk(function)
+            if ast.unparse(each).endswith("[-1]")
+            if isinstance(each, ast.Subscript)
+        }
+        loops = {ast.unparse(each.iter) for each in walk(function) if isinstance(each, ast.For)}
+        if ends - loops:
+            return True
+    return False
+
+
+def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a way that is planned only while there is none, and of which no cell is ever taken out."""
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        for node in (each for each in walk(owner) if isinstance(each, ast.If)):
+            match node.test:
+                case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute() as kept):
+                    way = ast.unparse(kept)
+                case ast.Compare(left=ast.Attribute() as kept, comparators=[ast.Constant(value=None)]):
+                    way = ast.unparse(kept)
+                case ast.Compare(
+                    left=ast.Call(func=ast.Name(id="len"), args=[kept]), comparators=[ast.Constant(value=0)]
+                ):
+                    way = ast.unparse(kept)
+                case _:
+                    continue
+            planners = _planners(owner, way)
+            in_test = {id(each) for part in node.body for each in walk(part)}
+            there = {id(each) for one in functions(owner) if one.name in planners for each in walk(one)}
+            planned = any(
+                ast.unparse(target) == way
+                and isinstance(value, ast.Call)
+                and last_name(value.func) in {one.name for one in functions(owner) if called(one) & COLLECTS}
+                for target, value in assigned(node)
+            )
+            calls_planner = planners & called(node)
+            # Whatever changes the way anywhere but where it is planned may take cells out of it.
+            inside = (
+                in_test | there | {id(each) for one in functions(owner) if one.name == "__init__" for each in walk(one)}
+            )
+            others = [
+                target
+                for target, _ in assigned(owner)
+                if ast.unparse(target).startswith(way) and id(target) not in inside
+            ]
+            shortened = any(
+                name in SHORTENS and ast.unparse(call.func).startswith(f"{way}.") and id(call) not in there
+                for call, name in calls(owner)
+            )
+            deleted = any(isinstance(each, ast.Delete) and way in ast.unparse(each) for each in walk(owner))
+            followed = any(isinstance(each, ast.Subscript) and ast.unparse(each.value) == way for each in walk(owner))
+            again = calls_planner and any(
+                last_name(call.func) in calls_planner and id(call) not in in_test for call, _ in calls(owner)
+            )
+            if (planned or calls_planner) and followed and not (others or shortened or deleted or again):
+                yield (
+                    node.lineno,
+                    "way",
+                    f"{way} is planned only while it is empty, and nothing takes a cell out of it: the robot goes for "
+                    "the same cell for ever. Take out the cells that are reached, or plan again each time",
+                )
+
+
+def _planners(owner: ast.ClassDef, way: str) -> set[str]:
+    """Return the methods that collect a way cell by cell in an attribute themselves."""
+    return {
+        one.name
+        for one in functions(owner)
+        if one.name != "__init__"
+        and any(ast.unparse(target) == way for target, _ in assigned(one))
+        and (called(one) & COLLECTS)
+        and any(isinstance(each, ast.While) for each in walk(one))
+    }
+
+
+def first_pose(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a callback that returns if it has a pose already, and so keeps that of its first message."""
+    for function in functions(tree):
+        if ".pose.pose." not in ast.unparse(function):
+            continue
+        for node in function.body:
+            if not isinstance(node, ast.If) or not isinstance(node.body[-1], ast.Return):
+                continue
+            match node.test:
+                case ast.Compare(left=ast.Attribute() as kept, ops=[ast.IsNot()], comparators=[ast.Constant()]):
+                    pass
+                case ast.Attribute() as kept:
+                    pass
+                case _:
+                    continue
+            name = ast.unparse(kept)
+            later = {
+                ast.unparse(part)
+                for target, _ in assigned(function)
+                if target.lineno > node.lineno
+                for part in walk(target)
+                if isinstance(part, ast.Attribute)
+            }
+            elsewhere = any(
+                ast.unparse(target) == name
+                for other in functions(tree)
+                for target, _ in assigned(other)
+                if other is not function and other.name != "__init__"
+            )
+            if name in later and not elsewhere:
+                yield (
+                    node.lineno,
+                    "pose",
+                    f"{function.name} returns here once {name} is set, so the pose is that of the first message for "
+                    "ever, and the map and the ways do not move with the robot: set it in every call",
+                )
+
+
+def small_counters(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an array of 8 bits in which something is counted."""
+    small = {
+        ast.unparse(target): value.lineno
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Call) and SMALL.search(ast.unparse(value)) and last_name(value.func) != "astype"
+    }
+    for function in functions(tree):
+        limited = {ast.unparse(each) for call, name in calls(function) if name in HOLDS for each in walk(call)}
+        for node in walk(function):
+            name = ""
+            if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Subscript | ast.Attribute):
+                whole = node.target.value if isinstance(node.target, ast.Subscript) else node.target
+                while isinstance(whole, ast.Subscript):
+                    whole = whole.value
+                name = ast.unparse(whole)
+            elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("add.at") and node.args:
+                name = ast.unparse(node.args[0])
+            if name in small and name not in limited:
+                yield (
+                    node.lineno,  # type: ignore[attr-defined]
+                    "counter",
+                    f"{name} has numbers of 8 bits (line {small[name]}), which begin again at the other end when a "
+                    "count passes 127 (int8) or 255 (uint8), and near the robot many rays pass a cell: count with "
+                    "larger integers, dtype=int",
+                )
+                return
+
+
+def turned_the_wrong_way(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an error that is the heading minus the direction of the goal, and turns the robot with a positive gain."""
+    values = {ast.unparse(target): value for target, value in assigned(tree)}
+    aimed = {
+        name
+        for name, value in values.items()
+        if called(value) & AIMED and not re.search(r"\.[wz]\b", ast.unparse(value))
+    }
+    for target, value in assigned(tree):
+        for node in walk(value):
+            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
+                continue
+            left, right = ast.unparse(node.left), ast.unparse(node.right)
+            backward = isinstance(node.left, ast.Attribute | ast.Name) and HEADING.search(left) and left not in aimed
+            if not backward or not (right in aimed or right.startswith(("atan2(", "math.atan2(", "np.arctan2("))):
+                continue
+            error = ast.unparse(target)
+            used = [
+                other
+                for one, other in assigned(tree)
+                if ast.unparse(one).endswith("angular.z") and error in {ast.unparse(each) for each in walk(other)}
+            ]
+            if used and all(_sign(each, error, values) > 0 for each in used):
+                yield (
+                    node.lineno,
+                    "sign",
+                    f"{ast.unparse(node)[:60]} is the error with the wrong sign, and angular.z turns by it: the robot "
+                    "turns away from its goal; it is the direction of the goal minus the heading",
+                )
+
+
+def _sign(node: ast.expr, name: str, values: dict[str, ast.expr]) -> int:
+    """Return the sign with which a name goes into an expression, by its operators and constants; 0 if it is not in it.
+
+    A gain with a name is what it was assigned, or positive.
+    """
+    if ast.unparse(node) == name:
+        return 1
+    match node:
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return -_sign(inner, name, values)
+        case ast.BinOp(left=left, op=op, right=right):
+            one, other = _sign(left, name, values), _sign(right, name, values)
+            if isinstance(op, ast.Mult | ast.Div):
+                gain = right if one else left
+                text = ast.unparse(values.get(ast.unparse(gain), gain))
+                return (one or other) * (-1 if text.startswith("-") else 1)
+            return one or (-other if isinstance(op, ast.Sub) else other)
+    return next(
+        (
+            sign
+            for each in ast.iter_child_nodes(node)
+            if isinstance(each, ast.expr) and (sign := _sign(each, name, values))
+        ),
+        0,
+    )
+
+
+def cells_for_metres(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a cell of a way from which a place in metres is subtracted."""
+    poses = {
+        ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith((".position.x", "p.x"))
+    }
+    cells: dict[str, str] = {}
+    for target, value in assigned(tree):
+        if _of_a_path(value) and isinstance(target, ast.Tuple):
+            cells |= {each.id: ast.unparse(value) for each in target.elts if isinstance(each, ast.Name)}
+    for node in walk(tree):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and ast.unparse(node.right) in poses:
+            name = ast.unparse(node.left)
+            if name in cells:
+                yield (
+                    node.lineno,
+                    "cell",
+                    f"{ast.unparse(node)} subtracts metres from {name}, which comes from {cells[name][:40]}: if these "
+                    "are cells, make metres of them first, corner + (cell + 0.5) * resolution",
+                )
+
+
+def _of_a_path(value: ast.expr) -> bool:
+    return isinstance(value, ast.Subscript) and bool(re.search(r"path|way|route|plan|cells", ast.unparse(value.value)))
+
+
+def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the direction of a place from the origin where that from the robot is meant: no pose is subtracted."""
+    poses = {
+        ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith((".position.x", "p.x"))
+    }
+    makers = {each.name for each in functions(tree) if not any(pose in ast.unparse(each) for pose in poses)}
+    for function in functions(tree) if poses else ():
+        places: dict[str, int] = {}
+        for target, value in assigned(function):
+            made = isinstance(value, ast.Call) and last_name(value.func) in makers and len(value.args) == 1
+            for each in target.elts if isinstance(target, ast.Tuple) and (made or _of_a_path(value)) else ():
+                places[ast.unparse(each)] = value.lineno
+        for call, name in calls(function):
+            texts = [ast.unparse(each) for each in call.args]
+            if name in AIMED and len(texts) == 2 and all(text in places for text in texts):
+                yield (
+                    call.lineno,
+                    "cell",
+                    f"{ast.unparse(call)} is the direction of ({texts[1]}, {texts[0]}) from the origin of the map, "
+                    "not from the robot: subtract the robot's x and y first",
+                )
+
+
+def part_of_a_scan(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop that goes through a part of the rays while it draws a map."""
+    for function in functions(tree):
+        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
+            for node in walk(loop.iter):
+                part = isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) and node.slice.step is None
+                if isinstance(node, ast.Subscript) and part and ast.unparse(node.value).endswith(".ranges"):
+                    yield (
+                        node.lineno,
+                        "part",
+                        f"{ast.unparse(node)[:60]} leaves out a part of the rays: what stands on that side never gets "
+                        "into the map",
+                    )
+
+
+LOOKS = (
+    aimed_from_the_origin, part_of_a_scan, depth_first, backwards, never_shortened, first_pose, small_counters,
+    turned_the_wrong_way, cells_for_metres,
+)  # fmt: skip

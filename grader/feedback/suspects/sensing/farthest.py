@@ -1,0 +1,44 @@
+"""Suspects in what a node takes for the distance from a wall: the farthest range in place of the nearest."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, walk
+
+Loop = ast.For | ast.comprehension
+
+
+def largest_range(tree: ast.Module) -> Iterator[Suspect]:
+    """Find the largest of the ranges of a scan in a node that steers, where nothing takes the smallest."""
+    if "angular.z" not in ast.unparse(tree):
+        return
+    for function in functions(tree):
+        lists = set(_of_ranges(function))
+        given = [(call, name, ast.unparse(call.args[0])) for call, name in calls(function) if len(call.args) == 1]
+        if any(name in ("min", "nanmin", "argmin", "sorted", "sort") for _, name, _ in given):
+            continue
+        for call, name, text in given:
+            if name in ("max", "nanmax") and (text in lists or text.partition("[")[0].endswith(".ranges")):
+                yield (
+                    call.lineno,
+                    "farthest",
+                    f"{ast.unparse(call)[:60]} takes the farthest of the ranges: the distance from a wall is that of "
+                    "its nearest point, min(...)",
+                )
+
+
+def _of_ranges(function: ast.FunctionDef) -> Iterator[str]:
+    """Yield the names of lists that are filled from the ranges of a scan."""
+    for node in walk(function):
+        if isinstance(node, ast.For) and ".ranges" in ast.unparse(node.iter):
+            for call, name in calls(node):
+                if name == "append":
+                    yield ast.unparse(call.func).rpartition(".")[0]
+    for target, value in assigned(function):
+        if isinstance(value, ast.ListComp) and any(".ranges" in ast.unparse(loop.iter) for loop in value.generators):
+            yield ast.unparse(target)
+
+
+LOOKS = (largest_range,)

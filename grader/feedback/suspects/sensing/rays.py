@@ -1,0 +1,65 @@
+"""Suspects in what reads a scan: rays by their number, and ranges that are not looked at before they are compared."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, last_name, walk
+
+COPIES = frozenset({"list", "tuple", "array", "asarray"})
+
+
+def by_number(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a ray, or a slice of rays, that is chosen by a number in the program."""
+    names = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if isinstance(target, ast.Name) and ast.unparse(_copied(value)).endswith(".ranges")
+    }
+    for node in walk(tree):
+        if not isinstance(node, ast.Subscript):
+            continue
+        whole = ast.unparse(node.value)
+        if not whole.endswith("ranges") and whole not in names:
+            continue
+        if _numbered(node.slice):
+            yield (
+                node.lineno,
+                "ray",
+                f"{ast.unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
+                "[rad], and 0 is ahead only if angle_min is 0",
+            )
+
+
+def _copied(value: ast.expr) -> ast.expr:
+    """Return what `list(...)` or `np.array(...)` copies, or the value itself."""
+    copies = isinstance(value, ast.Call) and last_name(value.func) in COPIES and len(value.args) > 0
+    return value.args[0] if copies and isinstance(value, ast.Call) else value
+
+
+def _numbered(index: ast.expr) -> bool:
+    """Return whether an index is made of numbers alone; `[:, None]` adds an axis, and `[::-1]` leaves no ray out."""
+    if isinstance(index, ast.Tuple):
+        return False
+    parts = [index.lower, index.upper] if isinstance(index, ast.Slice) else [index]
+    inside = [each for part in parts if part is not None for each in walk(part)]
+    names = any(isinstance(each, ast.Name | ast.Attribute | ast.Call) for each in inside)
+    return not names and any(isinstance(each, ast.Constant) and isinstance(each.value, int) for each in inside)
+
+
+def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
+    whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".ranges")}
+    for node in walk(tree):
+        if isinstance(node, ast.Call) and last_name(node.func) == "min" and len(node.args) == 1:
+            text = ast.unparse(node.args[0])
+            if (text.endswith(".ranges") or text in whole) and not node.keywords:
+                yield (
+                    node.lineno,
+                    "ray",
+                    f"{ast.unparse(node)[:60]} is the nearest in any direction, and includes ranges that are "
+                    "not valid: choose the rays by their bearing, and those between range_min and range_max",
+                )
+
+
+LOOKS = (by_number, smallest_of_all)

@@ -1,0 +1,255 @@
+"""Suspects in a drive that never ends: what is compared does not change, or what is found has no effect (`endless`)."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.constants import named_numbers, number
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, set_to, walk
+from gz_course.grader.feedback.slips.clocks.time_units import unit_of
+
+LONG = 8.0  # [s] more is no drive of a run
+TIMES = frozenset({"now", "get_clock", "stamp", "time", "monotonic", "perf_counter", "sleep", "nanoseconds", "clock"})
+
+
+def in_init(tree: ast.AST) -> set[int]:
+    """Return the nodes within the `__init__` of classes, by their identity."""
+    return {id(node) for each in functions(tree) if each.name == "__init__" for node in walk(each)}
+
+
+def asked_for_none(test: ast.expr) -> str:
+    """Return the name of `NAME is None`, `not NAME`, `NAME < 0` and `NAME == 0`; empty for other conditions."""
+    match test:
+        case ast.Compare(left=left, ops=[ast.Is() | ast.Eq()], comparators=[ast.Constant(value=None | 0)]):
+            return ast.unparse(left)
+        case ast.Compare(left=left, ops=[ast.Lt()], comparators=[ast.Constant(value=0)]):
+            return ast.unparse(left)
+        case ast.UnaryOp(op=ast.Not(), operand=ast.Name() | ast.Attribute() as operand):
+            return ast.unparse(operand)
+    return ""
+
+
+def is_zero(value: ast.expr) -> bool:
+    return isinstance(value, ast.Constant) and value.value == 0
+
+
+def set_speeds(node: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield the assignments of `linear.x`: the whole target, and its value."""
+    return ((target, value) for target, value in assigned(node) if ast.unparse(target).endswith(".linear.x"))
+
+
+def publish_calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
+    """Yield each publish() with the code of the message."""
+    for call, name in calls(node):
+        if name == "publish" and call.args:
+            yield call, ast.unparse(call.args[0])
+
+
+def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a file that neither reads a clock, nor compares anything, nor cancels, nor has a second timer."""
+    names = {last_name(node) for node in walk(tree)}
+    asks = any(isinstance(node, ast.Compare) for function in functions(tree) for node in walk(function))
+    timers = [call for call, name in calls(tree) if name == "create_timer"]
+    if names & TIMES or asks or "cancel" in names or len(timers) != 1:
+        return
+    for target, _ in set_speeds(tree):
+        yield (
+            target.lineno,
+            "endless",
+            "nothing in the file asks how much time has passed; the number of calls does not say it",
+        )
+        return
+
+
+def computed_once(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a time that is computed only where the start is set, and compared in every call."""
+    init, values = in_init(tree), set_to(tree)
+    for block in (node for node in walk(tree) if isinstance(node, ast.If) and asked_for_none(node.test)):
+        start = asked_for_none(block.test)
+        inside = [pair for statement in block.body for pair in assigned(statement)]
+        if start not in {ast.unparse(target) for target, _ in inside}:
+            continue
+        for target, value in inside:
+            name = ast.unparse(target)
+            others = [each for each in values[name] if each is not value and id(each) not in init]
+            if name != start and not others and _has_difference(value) and _compared(tree, name):
+                yield (
+                    target.lineno,
+                    "endless",
+                    f"{name} is computed only here, below  if {ast.unparse(block.test)}:, which holds once; compute "
+                    "it in every call",
+                )
+
+
+def _has_difference(value: ast.expr) -> bool:
+    return any(isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) for node in walk(value))
+
+
+def _compared(tree: ast.AST, name: str) -> bool:
+    return any(
+        isinstance(node, ast.Compare) and any(ast.unparse(each) == name for each in (node.left, *node.comparators))
+        for node in walk(tree)
+    )
+
+
+def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a Twist that is made once, filled below a condition in a callback, and never set back to zero."""
+    nodes = in_init(tree)
+    sent = {message for _, message in publish_calls(tree)}
+    made = {
+        ast.unparse(target).removeprefix("self."): value
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Call) and last_name(value.func) == "Twist"
+    }
+    for function in (each for each in functions(tree) if each.name != "__init__"):
+        own = {ast.unparse(target) for target, _ in assigned(function)} | {each.arg for each in function.args.args}
+        for block in (node for node in walk(function) if isinstance(node, ast.If)):
+            for target, value in (pair for statement in block.body for pair in set_speeds(statement)):
+                message = ast.unparse(target).removesuffix(".linear.x")
+                once = message in sent - own and message.removeprefix("self.") in made
+                again = any(
+                    ast.unparse(each) == message and id(given) not in nodes and message.startswith("self.")
+                    for each, given in assigned(tree)
+                )
+                zero = any(
+                    is_zero(other) or not isinstance(other, ast.Constant)
+                    for each, other in set_speeds(tree)
+                    if ast.unparse(each) == ast.unparse(target) and id(other) not in nodes
+                )
+                if once and not again and not zero and not is_zero(value):
+                    yield (
+                        target.lineno,
+                        "endless",
+                        f"{message} is one message for all calls and keeps what is set here, below  "
+                        f"if {ast.unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 "
+                        "then, or make a new Twist() in every call",
+                    )
+
+
+def refreshed(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a start that another callback sets anew each time it is called."""
+    starts = {
+        ast.unparse(part.right)
+        for node in walk(tree)
+        if isinstance(node, ast.BinOp | ast.Compare)
+        for part in walk(node)
+        if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Sub) and isinstance(part.right, ast.Attribute)
+    }
+    values = set_to(tree)
+    for function in (each for each in functions(tree) if each.name != "__init__"):
+        own = {ast.unparse(part.right) for part in walk(function) if isinstance(part, ast.BinOp)}
+        for statement in function.body:
+            for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
+                name = ast.unparse(target)
+                if name in starts - own and any(last_name(each) in TIMES for each in walk(value)) and values[name]:
+                    yield (
+                        statement.lineno,
+                        "endless",
+                        f"{name} = {ast.unparse(value)[:40]} sets the start again in every call of {function.name}, so "
+                        "the time since then stays short: set it once, if it is None",
+                    )
+
+
+def default_messages(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a message that is the default of a parameter, and is filled below a condition and published."""
+    for function in functions(tree):
+        arguments, defaults = function.args.args, function.args.defaults
+        for argument, default in zip(arguments[len(arguments) - len(defaults) :], defaults, strict=True):
+            filled = [
+                target for target, _ in set_speeds(function) if ast.unparse(target).startswith(f"{argument.arg}.")
+            ]
+            if filled and isinstance(default, ast.Call):
+                yield (
+                    function.lineno,
+                    "endless",
+                    f"{argument.arg}={ast.unparse(default)} is made once, when {function.name} is defined, and keeps "
+                    f"what line {filled[0].lineno} sets from call to call: make the message in the function",
+                )
+
+
+def long_times(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a time in seconds that is compared with far more of them than a drive takes."""
+    numbers, values = named_numbers(tree), set_to(tree)
+    declared = {
+        ast.unparse(call.args[0]): value
+        for call, name in calls(tree)
+        if name == "declare_parameter" and len(call.args) > 1 and (value := number(call.args[1], numbers))
+    }
+    for node in (each for each in walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
+        for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
+            given = other
+            while isinstance(given, ast.Name | ast.Attribute) and len(values.get(ast.unparse(given), [])) == 1:
+                given = values[ast.unparse(given)][0]
+            asked = [call for call, name in calls(given) if name == "get_parameter" and call.args]
+            limit = declared.get(ast.unparse(asked[0].args[0])) if asked else number(other, numbers)
+            if limit and limit > LONG and unit_of(one, values, numbers) == 1.0:
+                yield (
+                    node.lineno,
+                    "endless",
+                    f"{ast.unparse(node)[:70]} compares a time in seconds with {limit:g}: that many seconds are longer "
+                    "than the run",
+                )
+
+
+def not_read(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an attribute that a method sets to end something, and that nobody reads, or `__init__` alone."""
+    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+        init = in_init(owner)
+        read: dict[str, list[ast.Attribute]] = {}
+        for node in walk(owner):
+            if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
+                read.setdefault(ast.unparse(node), []).append(node)
+        for target, value in assigned(owner):
+            name = ast.unparse(target)
+            if not name.startswith("self.") or name.count(".") > 1 or not isinstance(value, ast.Constant):
+                continue
+            readers = read.get(name, [])
+            if id(value) in init or any(id(each) not in init for each in readers):
+                continue
+            who = (
+                f"only __init__ reads {name}, once, in line {readers[0].lineno}" if readers else f"nothing reads {name}"
+            )
+            yield target.lineno, "endless", f"{name} = {ast.unparse(value)} changes nothing: {who}"
+
+
+def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a speed that is set in every call, behind a condition that neither leaves nor sets it back."""
+    for function in (each for each in functions(tree) if each.name not in ("__init__", "main")):
+        for i, statement in enumerate(function.body):
+            speeds = [(t, v) for t, v in set_speeds(statement) if isinstance(statement, ast.Assign) and not _varies(v)]
+            before = [each for each in function.body[:i] if isinstance(each, ast.If) and not asked_for_none(each.test)]
+            after = function.body[i + 1 :]
+            if not speeds or is_zero(speeds[0][1]) or not before or any(_leaves(each) for each in before):
+                continue
+            if not any(True for each in after for _ in publish_calls(each)):
+                continue
+            if any(isinstance(each, ast.If) and _may_stop(each) for each in after):
+                continue
+            yield (
+                statement.lineno,
+                "endless",
+                f"{ast.unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
+                "it, so every call sets this speed; indent it, or return where the time is over",
+            )
+            return
+
+
+def _varies(value: ast.expr) -> bool:
+    """Return whether a speed may be zero as well: it has a condition in it, or is a name."""
+    return not isinstance(value, ast.Constant)
+
+
+def _leaves(block: ast.If) -> bool:
+    return any(isinstance(node, ast.Return | ast.Raise) for node in walk(block)) or "cancel" in called(block)
+
+
+def _may_stop(block: ast.If) -> bool:
+    """Return whether a block sets a speed, makes a new message, or leaves."""
+    return _leaves(block) or any(True for _ in set_speeds(block)) or "Twist" in called(block)
+
+
+LOOKS = (
+    computed_once, kept_messages, refreshed, default_messages, outside_the_condition, long_times, no_time_at_all,
+    not_read,
+)  # fmt: skip

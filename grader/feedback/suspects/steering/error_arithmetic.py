@@ -1,0 +1,74 @@
+"""Suspects in the arithmetic of an error that a robot steers by: whole metres, and a number divided by the error."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.syntax import Suspect, last_name, set_to, walk
+
+ROUNDS = frozenset({"int", "round", "floor", "ceil", "trunc", "rint"})
+ERROR = re.compile(r"(^|[._])(e|err|error|diff|difference|deviation|offset)\w*$", re.IGNORECASE)
+
+
+def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
+    """Find a difference of distances that is rounded to whole metres."""
+    if not _steers(tree):
+        return
+    known = set_to(tree)
+    for node in walk(tree):
+        match node:
+            case ast.Call(args=[given], keywords=[]) if last_name(node.func) in ROUNDS:
+                values = known.get(ast.unparse(given), [given])
+                if all(_is_difference(each) for each in values):
+                    yield (
+                        node.lineno,
+                        "whole metres",
+                        f"{ast.unparse(node)[:60]} is a whole number of metres: an error below 1 m, or 0.5 m, becomes "
+                        "0; leave it as it is",
+                    )
+
+
+def divided(tree: ast.Module) -> Iterator[Suspect]:
+    """Find a gain that is divided by the error instead of multiplied with it."""
+    if not _steers(tree):
+        return
+    known = set_to(tree)
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.Div(), left=gain, right=error) if _is_gain(gain):
+                values = known.get(ast.unparse(error), [])
+                if ERROR.search(ast.unparse(error)) and values and all(_is_difference(each) for each in values):
+                    yield (
+                        node.lineno,
+                        "divided",
+                        f"{ast.unparse(node)[:60]} divides by the error: the smaller the error is, the more the robot "
+                        "turns; multiply the gain by it",
+                    )
+
+
+def _is_gain(node: ast.expr) -> bool:
+    match node:
+        case ast.Constant(value=int() | float()):
+            return True
+        case ast.Name() | ast.Attribute():
+            return bool(re.search(r"gain|^k|_k|\bk", ast.unparse(node), re.IGNORECASE))
+    return False
+
+
+def _is_difference(value: ast.expr) -> bool:
+    match value:
+        case ast.BinOp(op=ast.Sub(), left=left, right=right):
+            return not any(isinstance(each, ast.Constant) for each in (left, right)) and "stamp" not in ast.unparse(
+                value
+            )
+    return False
+
+
+def _steers(tree: ast.Module) -> bool:
+    text = ast.unparse(tree)
+    return "angular.z" in text and ".ranges" in text
+
+
+LOOKS = (whole_metres, divided)

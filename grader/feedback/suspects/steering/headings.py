@@ -1,0 +1,265 @@
+"""Suspects about angles: parts of a quaternion that are taken for the heading, degrees for radians, x before y."""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+
+LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
+MOST = 3.2  # [rad] a larger limit of an angle was meant in degrees
+PER_DEGREE = 0.1  # [rad/s] a gain below it may well be meant for degrees
+SINES = frozenset({"cos", "sin", "tan"})
+TO_DEGREES = frozenset({"degrees", "rad2deg"})
+TO_RADIANS = frozenset({"radians", "deg2rad"})
+HEADING = re.compile(r"heading|yaw|theta|\bth\b|phi|psi|angle|direction|orientation", re.IGNORECASE)
+OF_SCANS = re.compile(r"\bangle_(?:min|max|increment)\b")
+X = re.compile(r"\bd?x\b|\[0\]|\bd_?x\b|\bdelta_x\b|\b(?:forward|ahead)\b")
+Y = re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b|\b(?:leftward|left|aside|sideways|lateral)\b")
+
+
+def _quaternions(tree: ast.AST) -> set[str]:
+    """Return the names that stand for a quaternion: those that are assigned something.orientation."""
+    found = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Attribute) and value.attr in ("orientation", "rotation")
+    }
+    own = {each.name: [one.arg for one in each.args.args if one.arg != "self"] for each in functions(tree)}
+    for call, name in calls(tree):
+        given = zip(own.get(name, []), call.args, strict=False)
+        found |= {one for one, value in given if ast.unparse(value).endswith((".orientation", ".rotation"))}
+    return found
+
+
+def _headings(tree: ast.AST) -> Iterator[ast.expr]:
+    """Yield what is assigned to a heading, and what a function with such a name returns."""
+    yield from (value for target, value in assigned(tree) if HEADING.search(ast.unparse(target)))
+    for function in functions(tree):
+        if HEADING.search(function.name):
+            found = (each.value for each in walk(function) if isinstance(each, ast.Return))
+            yield from (value for value in found if value is not None)
+
+
+def _part(node: ast.AST, names: set[str]) -> str:
+    """Return which part of a quaternion an expression is, such as `z`; empty if it is none."""
+    if not isinstance(node, ast.Attribute) or node.attr not in ("x", "y", "z", "w"):
+        return ""
+    of = ast.unparse(node.value)
+    return node.attr if of in names or of.endswith((".orientation", ".rotation")) else ""
+
+
+def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
+    """Find headings that are made of a quaternion in a wrong way."""
+    names = _quaternions(tree)
+    for value in _headings(tree):
+        parts = {part for node in walk(value) if (part := _part(node, names))}
+        if not parts:
+            continue
+        words = _wrong_heading(value, parts, names)
+        if words and not (words.startswith("acos") and _signed(tree, names)):
+            yield value.lineno, "heading", f"{ast.unparse(value)[:60]} is taken for the heading: {words}"
+
+
+def _signed(tree: ast.AST, names: set[str]) -> bool:
+    """Say whether the sign of z is asked for, which tells left from right."""
+    asking = (
+        node
+        for node in walk(tree)
+        if isinstance(node, ast.Compare)
+        or (isinstance(node, ast.Call) and last_name(node.func) in ("copysign", "sign"))
+    )
+    return any(_part(each, names) == "z" for node in asking for each in walk(node))
+
+
+def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
+    used, right = called(value) - LIMITS, "the heading is 2 * atan2(orientation.z, orientation.w)"
+    if not used and len(parts) == 1:
+        (part,) = parts
+        what = {"z": "the sine of half of it", "w": "the cosine of half of it"}.get(part, "nearly 0 on flat ground")
+        return f"orientation is a quaternion, whose {part} is {what}; {right}"
+    if used == {"atan2"} and (flat := sorted(parts - {"w"})) and "z" not in parts:
+        return f"{flat[0]} is nearly 0 on flat ground, so this is, too; {right}"
+    if used == {"atan2"} and parts == {"z", "w"} and isinstance(value, ast.Call):
+        if _part(value.args[0], names) == "w":
+            return f"atan2 takes the sine first, which is z; {right}"
+        return f"that is half of it; {right}" if all(_part(each, names) for each in value.args) else ""
+    if used and used <= {"acos", "arccos"} and parts == {"w"}:
+        return f"acos is never negative, so whoever has turned to the right seems to have turned to the left; {right}"
+    if used and used <= {"asin", "arcsin"} and parts == {"z"} and isinstance(value, ast.Call):
+        return f"that is half of it; {right}"
+    return ""
+
+
+def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
+    in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    of_scans = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if OF_SCANS.search(ast.unparse(value)) and not called(value) & (TO_DEGREES | TO_RADIANS | {"int", "round"})
+    }
+    of_scans -= in_degrees
+    for node in walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        name, given = last_name(node.func), [*node.args]
+        text = ast.unparse(node)[:60]
+        if name in SINES and given and not called(given[0]) & TO_RADIANS and not _to_radians(given[0]):
+            parts = {ast.unparse(each) for each in walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
+            if _in_degrees(given[0]) or parts & in_degrees:
+                yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
+        of_scan = given and (OF_SCANS.search(ast.unparse(given[0])) or ast.unparse(given[0]) in of_scans)
+        if name in TO_RADIANS and of_scan and not _in_degrees(given[0]):
+            yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"
+
+
+def _in_degrees(value: ast.AST) -> bool:
+    return bool(called(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", ast.unparse(value)))
+
+
+def _to_radians(value: ast.AST) -> bool:
+    return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", ast.unparse(value)))
+
+
+def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angular.z that is assigned degrees."""
+    in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    known = named_numbers(tree)
+    for target, value in assigned(tree):
+        parts = {ast.unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
+        wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
+        if wrong and ast.unparse(target).endswith("angular.z"):
+            yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
+
+
+def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
+    """Yield the nodes that make the size of a value: not those of comparisons, nor what has a gain per degree."""
+    if isinstance(value, ast.Compare):
+        return
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult):
+        gains = [each for side in (value.left, value.right) if (each := number(side, known)) is not None]
+        if any(abs(each) < PER_DEGREE for each in gains):
+            return
+    yield value
+    for child in ast.iter_child_nodes(value):
+        yield from _counting(child, known)
+
+
+def sine_first(tree: ast.AST) -> Iterator[Suspect]:
+    """Find atan2 of x and y."""
+    for node in walk(tree):
+        if not isinstance(node, ast.Call) or last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
+            continue
+        first, second = (ast.unparse(each) for each in node.args)
+        if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
+            yield node.lineno, "heading", f"{ast.unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
+
+
+def differences(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the difference of a direction and a heading in a file that brings no angle between -pi and pi."""
+    text = ast.unparse(tree)
+    if re.search(
+        r"remainder\(|fmod\(|% |atan2\((?:math\.|np\.)?sin|arctan2\(np\.sin|(?:while|if) .*(?:>|<) -?(?:\w+\.)?pi", text
+    ):
+        return
+    aimed = {
+        ast.unparse(target)
+        for target, value in assigned(tree)
+        if called(value) & {"atan2", "arctan2"} and isinstance(target, ast.Name)
+    }
+    for node in walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
+            continue
+        direction = called(node.left) & {"atan2", "arctan2"} or ast.unparse(node.left) in aimed
+        if HEADING.search(ast.unparse(node.right)) and direction:
+            yield (
+                node.lineno,
+                "wrap",
+                f"{ast.unparse(node)[:60]} is not brought between -pi and pi, so the robot may turn the long way round",
+            )
+
+
+def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the sum or difference of an angle in degrees and the direction that atan2 returns."""
+    values = list(assigned(tree))
+    in_degrees = {ast.unparse(target) for target, value in values if _in_degrees(value)}
+    in_radians = {ast.unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
+    for node in walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub | ast.Add):
+            continue
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            degrees = ast.unparse(one) in in_degrees or _in_degrees(one)
+            radians = ast.unparse(other) in in_radians or _of_atan2(other)
+            if degrees and radians:
+                yield (
+                    node.lineno,
+                    "angle",
+                    f"`{ast.unparse(node)[:70]}`: {ast.unparse(one)[:40]} is in degrees, and {ast.unparse(other)[:40]} "
+                    "in radians; both must be in one unit, and the sines of Python and ROS's messages take radians",
+                )
+
+
+def _of_atan2(value: ast.AST) -> bool:
+    """Return whether a value is what atan2 returns, in radians."""
+    return bool(called(value) & {"atan2", "arctan2"}) and not _in_degrees(value) and isinstance(value, ast.Call)
+
+
+def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading of a quaternion that a function returns in degrees, in a file that makes no radians of it."""
+    if called(tree) & TO_RADIANS or _to_radians(tree):
+        return
+    aims = any(called(n) & {"atan2", "arctan2"} and not _of_quaternion(n) for n in walk(tree) if _is_call(n))
+    for node in walk(tree):
+        value = node.value if isinstance(node, ast.Return) else None
+        if aims and value is not None and _in_degrees(value) and _of_quaternion(value):
+            yield (
+                value.lineno,
+                "angle",
+                f"{ast.unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
+                "radians; both must be in one unit",
+            )
+
+
+def _is_call(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and last_name(node.func) in ("atan2", "arctan2")
+
+
+def _of_quaternion(node: ast.AST) -> bool:
+    parts = {each.attr for each in walk(node) if isinstance(each, ast.Attribute)}
+    return {"z", "w"} <= parts
+
+
+def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angle in radians that is compared with a number above pi, in a file that makes no degrees."""
+    if called(tree) & (TO_DEGREES | TO_RADIANS) or not called(tree) & {"atan2", "arctan2"}:
+        return
+    numbers = [each.value for each in walk(tree) if isinstance(each, ast.Constant)]
+    if any(each in (180, 360, 57.3, 57.29578) for each in numbers if isinstance(each, int | float)):
+        return
+    known = named_numbers(tree)
+    for node in walk(tree):
+        if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+            continue
+        left = node.left
+        if isinstance(left, ast.Call) and last_name(left.func) in ("abs", "fabs") and left.args:
+            left = left.args[0]
+        name = last_name(left.func if isinstance(left, ast.Call) else left)
+        limit = number(node.comparators[0], known)
+        if re.search(r"angle|bearing|heading|yaw|turn|theta", name) and limit is not None and MOST < limit <= 180:
+            yield (
+                node.lineno,
+                "angle",
+                f"`{ast.unparse(node)[:60]}`: an angle in radians is at most 3.14, and {limit:g} degrees are "
+                f"{math.radians(limit):.2g}",
+            )
+
+
+LOOKS = (
+    headings_in_degrees, quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first,
+    degrees_beside_radians, differences, limits_in_degrees,
+)  # fmt: skip

@@ -1,0 +1,110 @@
+"""Suspects in poses that a node makes of exact odometry: sums of turning rates, averages, and angles cut at pi."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.constants import named_numbers, number
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, walk
+
+RATE = re.compile(r"\btwist\.(?:twist\.)?angular\.z")
+REST = "the pose of /odom is exact here: take it as it comes"
+
+
+def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `self.yaw += message.twist.twist.angular.z * dt` in a callback of odometry."""
+    if "Odometry" not in ast.unparse(tree):
+        return
+    for function in functions(tree):
+        twists = {ast.unparse(one) for one, value in assigned(function) if ast.unparse(value).endswith(".twist.twist")}
+        rates = {ast.unparse(one) for one, value in assigned(function) if RATE.search(ast.unparse(value))}
+        rates |= {f"{name}.angular.z" for name in twists}
+        for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
+            parts = {ast.unparse(each) for each in walk(node.value)}
+            if isinstance(node.op, ast.Add) and (RATE.search(ast.unparse(node.value)) or parts & rates):
+                yield (
+                    node.lineno,
+                    "heading",
+                    f"{ast.unparse(node)[:60]} adds up turning rates: it begins at 0 wherever the robot looks, and it "
+                    "is as wrong as the time between messages that it takes for granted; the heading is 2 * "
+                    "atan2(orientation.z, orientation.w)",
+                )
+
+
+def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the mean of an old pose and a new one, by which the robot seems to be where it was."""
+    known = named_numbers(tree)
+    for function in functions(tree):
+        if ".pose.pose" not in ast.unparse(function):
+            continue
+        for target, value in assigned(function):
+            for node in walk(value):
+                match node:
+                    case ast.BinOp(
+                        left=ast.BinOp(left=one, op=ast.Mult(), right=_),
+                        op=ast.Add(),
+                        right=ast.BinOp(left=other, op=ast.Mult(), right=_),
+                    ):
+                        a, b = number(one, known), number(other, known)
+                        if (
+                            a is not None
+                            and b is not None
+                            and abs(a + b - 1) < 1e-6
+                            and ast.unparse(target) in _used(value)
+                        ):
+                            yield (
+                                node.lineno,
+                                "pose",
+                                f"{ast.unparse(node)[:60]} averages the pose with older ones, so it lags behind the "
+                                f"robot, and the walls and the steering with it; {REST}",
+                            )
+
+
+def _used(value: ast.expr) -> set[str]:
+    return {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Attribute | ast.Name)}
+
+
+def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a difference of angles that is reduced by half a turn: `% pi`, `remainder(x, pi)`."""
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.Mod(), right=divisor):
+                pass
+            case ast.Call(func=ast.Name(id="remainder" | "fmod"), args=[_, divisor]):
+                pass
+            case ast.Call(func=ast.Attribute(attr="remainder" | "fmod" | "mod"), args=[_, divisor]):
+                pass
+            case _:
+                continue
+        if re.fullmatch(r"(?:math\.|np\.|numpy\.)?pi", ast.unparse(divisor)):
+            yield (
+                node.lineno,
+                "angle",
+                f"{ast.unparse(node)[:60]} takes away half turns, so what is behind seems to be ahead: a whole turn is "
+                "2 * pi",
+            )
+
+
+def heading_of_a_position(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `atan2(p.y, p.x)` of a position of /odom: the direction from the origin to the robot."""
+    positions = {
+        ast.unparse(one) for one, value in assigned(tree) if ast.unparse(value).endswith(".pose.pose.position")
+    }
+    for node in walk(tree):
+        match node:
+            case ast.Call(args=[ast.Attribute(value=one, attr="y"), ast.Attribute(value=other, attr="x")]):
+                whole = ast.unparse(one)
+                if whole != ast.unparse(other) or not re.search(r"atan2$|arctan2$", ast.unparse(node.func)):
+                    continue
+                if whole in positions or whole.endswith(".pose.pose.position"):
+                    yield (
+                        node.lineno,
+                        "heading",
+                        f"{ast.unparse(node)[:60]} is the direction from the origin to the robot, not where the robot "
+                        "looks: the heading is 2 * atan2(orientation.z, orientation.w)",
+                    )
+
+
+LOOKS = (heading_of_a_position, summed_rates, averaged_poses, cut_at_pi)

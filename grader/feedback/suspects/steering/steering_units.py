@@ -1,0 +1,267 @@
+"""Suspects in what a wall follower's turning rate is made of: degrees with a gain per radian, centimetres, gains
+behind a limit, the first item of a tuple, 0 for a ray that hits nothing.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+
+from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
+from gz_course.grader.feedback.facts.ros_parameters import reads
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, last_name, walk
+
+TO_DEGREES, TO_RADIANS = frozenset({"degrees", "rad2deg"}), frozenset({"radians", "deg2rad"})
+ENDS = TO_RADIANS | {"cos", "sin", "tan", "len", "range", "print", "isfinite"}  # what degrees do not get through
+PER_DEGREE = 0.1  # [rad/s] a gain below it may well be meant for degrees
+BY_HAND = re.compile(r"\* 180(?:\.0)? / (?:\w+\.)?pi|/ (?:\w+\.)?pi \* 180|\* 57\.\d|\* \(180(?:\.0)? / (?:\w+\.)?pi\)")
+BACK = re.compile(r"\* (?:\w+\.)?pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi|/ 57\.\d")
+STEPS = 6
+LIMIT = 1.5  # [rad/s] of this course's robots
+HUNDREDS = (100, 1000, 0.01, 0.001)
+
+
+def _steers(tree: ast.AST) -> bool:
+    text = ast.unparse(tree)
+    return "angular.z" in text and "LaserScan" in text
+
+
+def degrees_in_gains(tree: ast.Module) -> Iterator[Suspect]:
+    """Find an angle in degrees that goes into angular.z by a gain that is no gain per degree."""
+    if not _steers(tree):
+        return
+    known = named_numbers(tree)
+    for function in functions(tree):
+        names: dict[str, int] = {}
+        columns: dict[str, dict[int, int]] = {}
+        for _ in range(STEPS):
+            _columns(function, names, known, columns)
+            for target, value in assigned(function):
+                if line := _degrees(value, names, known):
+                    names.setdefault(ast.unparse(target), line)
+        for target, value in assigned(function):
+            if ast.unparse(target).endswith("angular.z") and (line := _degrees(value, names, known)):
+                yield (
+                    line,
+                    "degrees",
+                    "here an angle is in degrees, and angular.z is made of it as if it were in radians, so a heading "
+                    "that is wrong by a few degrees already turns the robot as fast as it may; leave all angles in "
+                    "radians",
+                )
+                return
+
+
+def _columns(
+    function: ast.FunctionDef, names: dict[str, int], known: dict[str, Number], columns: dict[str, dict[int, int]]
+) -> None:
+    """Follow degrees through lists of tuples: what is appended to one comes out of the loops over it."""
+    for call, name in calls(function):
+        if name == "append" and isinstance(call.func, ast.Attribute) and call.args:
+            items = call.args[0].elts if isinstance(call.args[0], ast.Tuple) else [call.args[0]]
+            for place, item in enumerate(items):
+                if line := _degrees(item, names, known):
+                    columns.setdefault(ast.unparse(call.func.value), {})[place] = line
+    for loop in (node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)):
+        items = loop.target.elts if isinstance(loop.target, ast.Tuple) else [loop.target]
+        for place, line in columns.get(ast.unparse(loop.iter), {}).items():
+            if place < len(items):
+                names.setdefault(ast.unparse(items[place]), line)
+
+
+def _degrees(node: ast.expr, names: dict[str, int], known: dict[str, Number]) -> int:
+    """Return the line that makes the degrees an expression is in; 0 if it is in none, or in too small a share."""
+    text = ast.unparse(node)
+    if isinstance(node, ast.Name | ast.Attribute) and text in names:
+        return names[text]
+    if isinstance(node, ast.Compare | ast.Constant | ast.Name):
+        return 0
+    if isinstance(node, ast.BinOp):
+        if BACK.search(text):
+            return 0
+        if BY_HAND.search(text):
+            return node.lineno
+        if isinstance(node.op, ast.Mult | ast.Div):
+            for side in (node.left, node.right):
+                value = number(side, known)
+                if value is not None and isinstance(node.op, ast.Div) and side is node.right:
+                    value = 1 / value if value else None
+                if value is not None and abs(value) < PER_DEGREE:
+                    return 0
+        return _degrees(node.left, names, known) or _degrees(node.right, names, known)
+    if isinstance(node, ast.Call):
+        name = last_name(node.func)
+        if name in TO_DEGREES:
+            return node.lineno
+        inside = [] if name in ENDS else [*node.args, *(each.value for each in node.keywords)]
+        return next((line for each in inside if (line := _degrees(each, names, known))), 0)
+    if isinstance(node, ast.ListComp | ast.GeneratorExp):
+        return _degrees(node.elt, names, known)
+    if isinstance(node, ast.Subscript):
+        return _degrees(node.value, names, known)
+    if isinstance(node, ast.IfExp):
+        return _degrees(node.body, names, known) or _degrees(node.orelse, names, known)
+    return _degrees(node.operand, names, known) if isinstance(node, ast.UnaryOp) else 0
+
+
+def centimetres(tree: ast.Module) -> Iterator[Suspect]:
+    """Find the parameter that says how far, or a range, that is multiplied by 100, 1000, or the inverse of them."""
+    if not _steers(tree):
+        return
+    known, asked = named_numbers(tree), {id(call) for call, _ in reads(tree)}
+    for node in walk(tree):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult | ast.Div):
+            continue
+        factor, other = number(node.right, known), node.left
+        if factor is None and isinstance(node.op, ast.Mult):
+            factor, other = number(node.left, known), node.right
+        if factor in HUNDREDS and any(id(each) in asked for each in walk(other)):
+            yield (
+                node.lineno,
+                "unit",
+                f"{ast.unparse(node)[:70]} is in another unit than metres, which the parameter and all ranges are in",
+            )
+
+
+def gains_behind_limits(tree: ast.Module) -> Iterator[Suspect]:
+    """Find a rate that is limited first and then multiplied by a gain, or has something added, on its way out."""
+    known = named_numbers(tree)
+    for function in functions(tree):
+        limited = {ast.unparse(target) for target, value in assigned(function) if _is_limited(value, known)}
+        values = {ast.unparse(target): value for target, value in assigned(function)}
+        for node in walk(function):
+            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
+                continue
+            for one, other in ((node.left, node.right), (node.right, node.left)):
+                gain = number(other, known)
+                inside = _is_limited(one, known) or ast.unparse(one) in limited
+                if inside and gain is not None and abs(gain) > 1 and _goes_out(function, node, values):
+                    yield (
+                        node.lineno,
+                        "limit",
+                        f"{ast.unparse(node)[:70]} multiplies by {gain:g} what is limited already, so it goes beyond "
+                        "the limit: limit last",
+                    )
+                    return
+
+
+def _is_limited(node: ast.expr, known: dict[str, Number]) -> bool:
+    """Say whether an expression is a value between -1.5 and 1.5: clip, or min and max."""
+    if not isinstance(node, ast.Call):
+        return False
+    if last_name(node.func) == "float" and node.args:
+        return _is_limited(node.args[0], known)
+    if last_name(node.func) not in ("clip", "min", "max", "clamp", "limited", "limit", "saturate"):
+        return False
+    numbers = [number(each, known) for each in walk(node) if isinstance(each, ast.expr)]
+    return LIMIT in numbers
+
+
+def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.expr]) -> bool:
+    """Return whether an expression reaches angular.z with nothing but signs on its way."""
+    for target, value in assigned(function):
+        if ast.unparse(target).endswith("angular.z"):
+            parts = list(walk(value))
+            names = [ast.unparse(each) for each in parts if isinstance(each, ast.Name | ast.Attribute)]
+            parts += [each for name in names if name in values for each in walk(values[name])]
+            limits = any(
+                isinstance(each, ast.Call)
+                and last_name(each.func) in ("clip", "min", "max")
+                and any(inner is node for inner in walk(each))
+                for each in parts
+            )
+            if any(each is node for each in parts) and not limits:
+                return True
+    return False
+
+
+def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
+    """Find min() of tuples in which the range is not the first item, with no key."""
+    if not _steers(tree):
+        return
+    for function in functions(tree):
+        single = {
+            ast.unparse(each)
+            for loop in walk(function)
+            if isinstance(loop, ast.For | ast.comprehension) and ".ranges" in ast.unparse(loop.iter)
+            for each in ([loop.target] if not isinstance(loop.target, ast.Tuple) else loop.target.elts[1:])
+        } | {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
+        rows: dict[str, ast.Tuple] = {}
+        for call, name in calls(function):
+            if name == "append" and call.args and isinstance(call.args[0], ast.Tuple):
+                rows[ast.unparse(call.func).rpartition(".")[0]] = call.args[0]
+        for target, value in assigned(function):
+            if isinstance(value, ast.ListComp) and isinstance(value.elt, ast.Tuple):
+                rows[ast.unparse(target)] = value.elt
+        for call, name in calls(function):
+            row = rows.get(ast.unparse(call.args[0])) if name in ("min", "sorted") and len(call.args) == 1 else None
+            if row is None or call.keywords or not row.elts:
+                continue
+            items = [ast.unparse(each) for each in row.elts]
+            if items[0] not in single and set(items[1:]) & single:
+                yield (
+                    call.lineno,
+                    "farthest",
+                    f"{ast.unparse(call)[:60]} compares the first items of the tuples, {items[0][:30]}, and not their "
+                    "ranges: put the range first, or pass a key",
+                )
+
+
+def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
+    """Find int(r) and round(r) of a range: what is left are whole metres."""
+    if not _steers(tree):
+        return
+    for function in functions(tree):
+        single = {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
+        for loop in (each for each in walk(function) if isinstance(each, ast.For | ast.comprehension)):
+            last = loop.target.elts[-1] if isinstance(loop.target, ast.Tuple) else loop.target
+            if ".ranges" in ast.unparse(loop.iter) and "range(" not in ast.unparse(loop.iter):
+                single.add(ast.unparse(last))
+        for call, name in calls(function):
+            given = ast.unparse(call.args[0]) if len(call.args) == 1 else ""
+            if name in ("int", "round") and (given in single or ".ranges[" in given.partition("(")[0]):
+                yield (
+                    call.lineno,
+                    "farthest",
+                    f"{ast.unparse(call)[:60]} makes whole metres of a range: leave it as it is",
+                )
+
+
+def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
+    """Find a ray that hits nothing, or is not valid, that counts as 0 m."""
+    if not _steers(tree):
+        return
+    text = ast.unparse(tree)
+    if re.search(r"> (?:0(?:\.\d*)?|\w+\.range_min|self\.range_min)\b", text):
+        return  # a range of 0 is left out again
+    for node in walk(tree):
+        code, zero = ast.unparse(node) if isinstance(node, ast.expr | ast.Assign) else "", False
+        match node:
+            case ast.Call() if last_name(node.func) == "nan_to_num":
+                zero = any(each.arg == "posinf" and number(each.value, {}) == 0 for each in node.keywords)
+            case ast.Call(args=[test, one, other]) if last_name(node.func) == "where":
+                zero = 0 in (number(one, {}), number(other, {})) and bool(
+                    re.search("isinf|isfinite", ast.unparse(test))
+                )
+            case ast.IfExp(test=test, body=one, orelse=other):
+                zero = 0 in (number(one, {}), number(other, {})) and bool(
+                    re.search(r"isinf|isfinite|\binf\b|range_max", ast.unparse(test))
+                )
+            case ast.Assign(targets=[ast.Subscript() as target], value=value):
+                zero = number(value, {}) == 0 and bool(re.search(r"isinf|isfinite|\binf\b", ast.unparse(target)))
+            case ast.If(test=test, body=[ast.Assign(targets=[ast.Name()], value=value)]):
+                code = f"if {ast.unparse(test)}: {ast.unparse(node.body[0])}"
+                zero = number(value, {}) == 0 and bool(
+                    re.search(r"isinf|isfinite|\binf\b|range_max", ast.unparse(test))
+                )
+        if zero:
+            yield (
+                node.lineno,  # type: ignore[attr-defined]
+                "zero",
+                f"{code[:80]} makes a ray that hits nothing the nearest of all, at 0 m: leave such rays out, or let "
+                "them count as far away",
+            )
+            return
+
+
+LOOKS = (degrees_in_gains, centimetres, gains_behind_limits, least_tuples, whole_metres, zero_for_nothing)

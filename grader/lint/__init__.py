@@ -1,1 +1,0 @@
-"""Linters of a student's Python file; the diagnosis uses what they find if a check failed."""
