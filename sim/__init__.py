@@ -1,1 +1,1 @@
-"""The tools of Gazebo and ROS 2. Each package has the name and the content of a package of a full installation."""
+"""The tools of Gazebo and ROS 2, by side: `gz`, `ros`, what lies between them (`bridge`), what shows them (`show`)."""

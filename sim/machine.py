@@ -70,7 +70,7 @@ def gz() -> int:
 def ros2() -> int:
     """Run `ros2`."""
     require("ros2")
-    from gz_course.sim.ros2.command_line import main
+    from gz_course.sim.ros.ros2.command_line import main
 
     return main()
 

@@ -31,7 +31,7 @@ def stand_beside(launch: ModuleType, public: str, private: str) -> None:
 
     Raises ImportError if `launch` is a real installation, beside which `public` is not installed.
     """
-    if launch is not importlib.import_module("gz_course.sim.launch"):
+    if launch is not importlib.import_module("gz_course.sim.ros.launch"):
         raise ImportError(
             f"launch comes from {launch.__path__[0]}, but no {public} stands beside it, and that of the course works "
             f"with the course's launch only; install {public} there, too, or remove that launch"

@@ -6,6 +6,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 NAMESPACE = "gz_course."  # an import name of ours is this and the path from the root
+SIDES = ("gz", "bridge", "ros", "show")
+PACKAGES_OF_PACKAGES = {"sim", *(f"sim/{side}" for side in SIDES)}
 
 
 @functools.cache
@@ -17,7 +19,7 @@ def modules():
     found = {}
     for path in sorted(each for top in ("sim", "grader") for each in (ROOT / top).rglob("*.py")):
         parts = path.relative_to(ROOT).with_suffix("").parts
-        if "template" in parts or parts[:3] == ("sim", "prefix", "share"):
+        if "template" in parts or parts[:4] == ("sim", "ros", "prefix", "share"):
             continue
         found["/".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
     return found
@@ -62,7 +64,7 @@ def imports(name, *, with_types=True, doors=True):
                 base = "/".join([*above, *(node.module or "").split(".")]).rstrip("/")
             names = {f"{base}/{alias.name}" for alias in node.names}
             if doors or not names <= modules().keys():
-                found.update({base} - {"sim"})  # the package of all packages: what is meant is in the names
+                found.update({base} - PACKAGES_OF_PACKAGES)  # what is meant is in the names
             found.update(names)
         elif isinstance(node, ast.Call) and last_name(node.func) in ("import_module", "__import__"):
             found.update(place(a.value) for a in node.args[:1] if isinstance(a, ast.Constant))

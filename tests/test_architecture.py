@@ -11,19 +11,35 @@ import sys
 
 import pytest
 
-from gz_course.tests.import_arrows import NAMESPACE, ROOT, below, cycles, imports, modules, place, reachable, tree
+from gz_course.tests.import_arrows import (
+    NAMESPACE,
+    ROOT,
+    SIDES,
+    below,
+    cycles,
+    imports,
+    modules,
+    place,
+    reachable,
+    tree,
+)
 
 PUBLIC_NAMES = {path.name for path in (ROOT / "public").iterdir() if path.is_dir()} - {"gz_course", "__pycache__"}
 NO_CODE = {"__pycache__", "interfaces"}
-PACKAGES = {path.name for path in (ROOT / "sim").iterdir() if path.is_dir()} - NO_CODE
+PACKAGES = {
+    path.relative_to(ROOT / "sim").as_posix()
+    for side in SIDES
+    for path in (ROOT / "sim" / side).iterdir()
+    if path.is_dir() and path.name not in NO_CODE
+} - {f"gz/{part}" for part in ("sim", "msgs", "transport")} | {"gz"}
 CODE_FOLDERS = ("sim", "grader", "public", "exercises", "solutions", "chapters", "tests")
 LONGEST_FILE = 400
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 HEAVY = {"mujoco", "rclpy", "rerun"}
 
 AGENT = "grader/run/agent"  # what is put before the student's own code, in the student's process
-RUNNING = ("grader/run", "sim/gz", "sim/ros_gz_bridge")
-ROS = ("rclpy", "rosidl_runtime_py", "ament_index_python", "sim/launch", "sim/launch_ros", "sim/ros2")
+RUNNING = ("grader/run", "sim/gz", "sim/bridge/ros_gz_bridge")
+ROS = ("rclpy", "rosidl_runtime_py", "ament_index_python")
 ROS_MESSAGES = r"\w+_(msgs|interfaces)(/|$)"
 
 # What a room must not import, imports for types and imports inside functions included. The rules of a room hold
@@ -31,85 +47,70 @@ ROS_MESSAGES = r"\w+_(msgs|interfaces)(/|$)"
 FORBIDDEN = {
     "sim": ("grader", "chapters", "exercises", "solutions"),
     "grader": ("chapters", "exercises", "solutions"),
-    "sim/ament_cmake": ("sim", "rclpy", "mujoco"),
-    "sim/cv_bridge": ("sim", "rclpy", "mujoco", "cv2"),
-    "sim/gz": (*ROS, "sim/ros_gz_bridge", "sim/ros_gz_image", "sim/ros_gz_sim", "sim/robot_state_publisher"),
+    # The sides: Gazebo's knows nothing of ROS, and nobody but it runs a world.
+    "sim/gz": (*ROS, "sim/ros", "sim/bridge", "sim/show"),
+    "sim/bridge": ("mujoco", "sim/gz/sim/world", "sim/gz/sim/server", "sim/show"),
+    "sim/ros": ("mujoco", "sim/bridge", "sim/show", "sim/gz/sim/world", "sim/gz/sim/server"),
+    "sim/show": ("mujoco", "sim/bridge", "sim/gz/sim"),
+    "sim/bridge/ros_gz_bridge": ("sim/gz/sim", "sim/ros/launch", "sim/ros/launch_ros", "sim/ros/ros2"),
+    "sim/bridge/ros_gz_image": (),
+    "sim/bridge/ros_gz_sim": ("sim/bridge/ros_gz_bridge",),
     "sim/gz/msgs": ("sim/gz/sim", "sim/gz/transport", "sim/gz/command"),
     "sim/gz/transport": ("sim/gz/sim", "mujoco"),
-    "sim/laser_geometry": ("sim", "rclpy", "mujoco"),
-    "sim/launch": ("sim", "rclpy", "mujoco", "ament_index_python"),
-    "sim/launch_ros": ("sim", "rclpy", "mujoco"),
-    "sim/launch_pytest": ("sim", "rclpy", "mujoco", "ament_index_python"),
-    "sim/launch_testing": ("sim", "rclpy", "mujoco", "ament_index_python"),
-    "sim/launch_testing_ros": ("sim", "mujoco"),
-    "sim/launch_xml": ("sim", "rclpy", "mujoco", "ament_index_python"),
-    "sim/launch_yaml": ("sim", "rclpy", "mujoco", "ament_index_python"),
-    "sim/message_filters": ("sim", "mujoco"),
-    "sim/prefix": ("sim", "rclpy", "mujoco"),
-    "sim/robot_state_publisher": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
-    "sim/ros2": ("sim", "mujoco"),
-    "sim/rosbag2": ("sim", "mujoco"),
-    "sim/rosbag2_py": ("sim", "mujoco"),
-    "sim/rosidl": ("sim", "rclpy", "mujoco"),
-    "sim/ros_program": ("sim/ros_gz_bridge", "sim/ros_gz_sim", "sim/ros_gz_image", "mujoco", "sim/gz/sim"),
-    "sim/ros_gz_bridge": ("mujoco", "sim/gz/sim", "sim/launch", "sim/launch_ros", "sim/ros2"),
-    "sim/ros_gz_image": ("mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
-    "sim/ros_gz_sim": ("sim/ros_gz_bridge", "mujoco", "sim/gz/sim/world", "sim/gz/sim/server"),
-    "sim/rqt_graph": ("sim", "mujoco"),
-    "sim/rviz2": ("sim", "mujoco"),
-    "sim/sensor_msgs_py": ("sim", "rclpy", "mujoco"),
-    "sim/teleop_twist_keyboard": ("sim", "mujoco"),
-    "sim/tf2_geometry_msgs": ("sim", "mujoco"),
-    "sim/tf2_py": ("sim", "mujoco"),
-    "sim/tf2_ros": ("sim", "mujoco"),
-    "sim/tf_transformations": ("sim", "rclpy", "mujoco"),
-    "sim/view": (*ROS, "sim/ros_gz_bridge", "sim/gz/sim/world", "sim/gz/sim/server"),
+    "sim/gz/view": ("sim/gz/sim/world", "sim/gz/sim/server"),
+    "sim/ros/cv_bridge": ("cv2",),
+    "sim/ros/robot_state_publisher": (),
+    "sim/ros/ros_program": ("sim/gz/sim",),
     "grader/feedback": ("rclpy", "mujoco", *RUNNING),
     "grader/score": ("rclpy", "mujoco", *RUNNING),
     "grader/report": ("rclpy", "mujoco", *RUNNING),
     AGENT: ("grader", "mujoco", "rerun"),
 }
-# Exceptions: a room may import these, whatever is forbidden above.
-ALLOWED = {
-    "sim/ament_cmake": ("sim/ament_cmake", "sim/rosidl"),
-    "sim/cv_bridge": ("sim/cv_bridge",),
-    "sim/laser_geometry": ("sim/laser_geometry", "sim/sensor_msgs_py"),
-    "sim/launch": ("sim/launch",),
-    "sim/launch_ros": ("sim/launch_ros", "sim/launch", "rclpy"),
-    "sim/launch_pytest": ("sim/launch_pytest", "sim/launch_testing", "sim/launch"),
-    "sim/launch_testing": ("sim/launch_testing", "sim/launch", "sim/launch_testing_ros/test_runner"),
-    "sim/launch_testing_ros": ("sim/launch_testing_ros", "sim/launch_testing"),
-    "sim/launch_xml": ("sim/launch_xml", "sim/launch"),
-    "sim/launch_yaml": ("sim/launch_yaml", "sim/launch"),
-    "sim/message_filters": ("sim/message_filters",),
-    "sim/prefix": ("sim/prefix", "sim/launch", "sim/launch_ros", "sim/rosidl"),
-    "sim/ros2": (
-        "sim/ros2",
-        "sim/prefix",
-        "sim/launch",
-        "sim/launch_ros",
-        "sim/launch_testing",
-        "sim/launch_testing_ros",
-        "sim/rosbag2",
-        "sim/ros_program",
+# Packages that use nothing of `sim` but themselves and these.
+USES = {
+    "sim/ros/ament_cmake": ("sim/ros/rosidl",),
+    "sim/ros/cv_bridge": (),
+    "sim/ros/laser_geometry": ("sim/ros/sensor_msgs_py",),
+    "sim/ros/launch": (),
+    "sim/ros/launch_ros": ("sim/ros/launch",),
+    "sim/ros/launch_pytest": ("sim/ros/launch_testing", "sim/ros/launch"),
+    "sim/ros/launch_testing": ("sim/ros/launch", "sim/ros/launch_testing_ros/test_runner"),
+    "sim/ros/launch_testing_ros": ("sim/ros/launch_testing",),
+    "sim/ros/launch_xml": ("sim/ros/launch",),
+    "sim/ros/launch_yaml": ("sim/ros/launch",),
+    "sim/ros/message_filters": (),
+    "sim/ros/prefix": ("sim/ros/launch", "sim/ros/launch_ros", "sim/ros/rosidl"),
+    "sim/ros/ros2": (
+        *("sim/ros/prefix", "sim/ros/ros_program", "sim/ros/rosbag2"),
+        *("sim/ros/launch", "sim/ros/launch_ros", "sim/ros/launch_testing", "sim/ros/launch_testing_ros"),
     ),
-    "sim/rosbag2": ("sim/rosbag2", "sim/rosidl"),
-    "sim/rosbag2_py": ("sim/rosbag2_py", "sim/rosbag2"),
-    "sim/rosidl": ("sim/rosidl",),
-    "sim/rqt_graph": ("sim/rqt_graph", "sim/ros2", "sim/gz/transport", "sim/rviz2/page"),
-    "sim/rviz2": ("sim/rviz2", "sim/ros_program", "sim/sensor_msgs_py"),
-    "sim/sensor_msgs_py": ("sim/sensor_msgs_py",),
-    "sim/teleop_twist_keyboard": ("sim/teleop_twist_keyboard", "sim/ros_program"),
-    "sim/tf2_geometry_msgs": ("sim/tf2_geometry_msgs", "sim/tf2_ros", "sim/tf2_py"),
-    "sim/tf2_py": ("sim/tf2_py",),
-    "sim/tf2_ros": ("sim/tf2_ros", "sim/tf2_py", "sim/ros_program"),
-    "sim/tf_transformations": ("sim/tf_transformations",),
-    AGENT: (AGENT,),
+    "sim/ros/rosbag2": ("sim/ros/rosidl",),
+    "sim/ros/rosbag2_py": ("sim/ros/rosbag2",),
+    "sim/ros/rosidl": (),
+    "sim/ros/sensor_msgs_py": (),
+    "sim/ros/tf2_geometry_msgs": ("sim/ros/tf2_ros", "sim/ros/tf2_py"),
+    "sim/ros/tf2_py": (),
+    "sim/ros/tf2_ros": ("sim/ros/tf2_py", "sim/ros/ros_program"),
+    "sim/ros/tf_transformations": (),
+    "sim/show/rqt_graph": ("sim/ros/ros2", "sim/gz/transport", "sim/show/rviz2/page"),
+    "sim/show/rviz2": ("sim/ros/ros_program", "sim/ros/sensor_msgs_py"),
+    "sim/show/teleop_twist_keyboard": ("sim/ros/ros_program",),
 }
+# Packages that work without rclpy.
+WITHOUT_ROS = {
+    *("ament_cmake", "cv_bridge", "laser_geometry", "launch", "launch_pytest", "launch_testing", "launch_xml"),
+    *("launch_yaml", "prefix", "rosidl", "sensor_msgs_py", "tf_transformations"),
+}
+FORBIDDEN |= {
+    room: (*FORBIDDEN.get(room, ()), "sim", *(ROS if room.removeprefix("sim/ros/") in WITHOUT_ROS else ()))
+    for room in USES
+}
+# Exceptions: a room may import these, whatever is forbidden above.
+ALLOWED = {room: (room, *others) for room, others in USES.items()} | {AGENT: (AGENT,)}
 FOR_ALL = ("sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
 # A module that starts a program and imports how: what the program itself imports is another process.
 PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
-NO_ROS_MESSAGES = ("sim/gz", "sim/view", "grader/feedback", "grader/score", "grader/report")
+NO_ROS_MESSAGES = ("sim/gz", "grader/feedback", "grader/score", "grader/report")
 
 
 @functools.cache
@@ -118,7 +119,7 @@ def rooms_of(name):
 
 
 def is_forbidden(name, imported):
-    if below(imported, *PUBLIC_NAMES, *PACKAGES, "public"):
+    if below(imported, *PUBLIC_NAMES, *(package.rpartition("/")[2] for package in PACKAGES), "public"):
         return True
     if below(imported, *FOR_ALL):
         return False
@@ -160,14 +161,17 @@ def test_a_forbidden_arrow_is_seen():
     for name, imported in [
         ("sim/gz/sim/world", "rclpy/node"),
         ("sim/gz/sim/world", "gz/transport"),
-        ("sim/launch/action", "launch"),
+        ("sim/ros/launch/action", "launch"),
         ("grader/grade", "ros_gz_bridge"),
         ("sim/gz/sim/world", "sensor_msgs/msg"),
-        ("sim/ros_gz_bridge/bridge", "mujoco"),
-        ("sim/ros2/topic", "sim/gz/transport"),
-        ("sim/prefix/local_setup", "rclpy"),
-        ("sim/prefix/local_setup", "grader/errors"),
-        ("sim/launch/action", "sim/launch_ros/actions"),
+        ("sim/gz/view/program", "sim/ros/rosidl"),
+        ("sim/ros/rosidl/cdr", "sim/show/rviz2"),
+        ("sim/bridge/ros_gz_sim/create", "sim/gz/sim/world"),
+        ("sim/bridge/ros_gz_bridge/bridge", "mujoco"),
+        ("sim/ros/ros2/topic", "sim/gz/transport"),
+        ("sim/ros/prefix/local_setup", "rclpy"),
+        ("sim/ros/prefix/local_setup", "grader/errors"),
+        ("sim/ros/launch/action", "sim/ros/launch_ros/actions"),
         ("grader/score/score", "sim/gz/msgs"),
         ("grader/exercise", "solutions"),
         (f"{AGENT}/course_agent/executor_monitor", "grader/errors"),
@@ -176,7 +180,8 @@ def test_a_forbidden_arrow_is_seen():
 
 
 def test_the_simulator_does_not_need_the_view():
-    users = {name for name in modules() if below(name, "sim/gz") and any(below(i, "sim/view") for i in imports(name))}
+    others = (name for name in modules() if below(name, "sim/gz") and not below(name, "sim/gz/view"))
+    users = {name for name in others if any(below(each, "sim/gz/view") for each in imports(name))}
     assert users == {"sim/gz/sim/commands/sim"}
 
 
@@ -224,7 +229,7 @@ def test_no_code_file_is_too_long():
 
 
 def test_no_file_has_a_vague_name():
-    own = (path for path in code() if path.parent != ROOT / "sim/launch_testing/util")  # ROS 2 gave it this name
+    own = (path for path in code() if path.parent != ROOT / "sim/ros/launch_testing/util")  # ROS 2 gave it this name
     nobody_offends(str(path.relative_to(ROOT)) for path in own if VAGUE_NAMES & {path.stem, path.parent.name})
 
 
@@ -260,14 +265,14 @@ def test_every_exported_name_resolves():
 def loaded_by(code, *arguments):
     """Which top-level modules a fresh Python has loaded after some code."""
     program = f"""
-import json, sys
+import json, re, sys
 sys.argv = ["course", *{list(arguments)!r}]
 try:
     {code}
 except SystemExit:
     pass
 finally:
-    names = (name.removeprefix("gz_course.").removeprefix("sim.") for name in sys.modules)
+    names = (re.sub(r"^gz_course[.](sim[.]((bridge|ros|show)[.])?)?", "", name) for name in sys.modules)
     print("\\n" + json.dumps(sorted({{name.split(".")[0] for name in names}})))
 """
     done = subprocess.run(
@@ -309,17 +314,19 @@ def headings(path):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in found}
 
 
-@pytest.mark.parametrize("document", ["README.md", "ARCHITECTURE.md"])
-def test_links_of_the_documents_lead_somewhere(document):
-    path = ROOT / document
-    if not path.is_file() or not path.read_text().strip():
-        pytest.skip(f"{document} is not written")
+TOP_PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
+ROOM_PAGES = [path for top in ("sim", "grader", "tests") for path in sorted((ROOT / top).rglob("README.md"))]
+PAGES = [path for path in (*TOP_PAGES, *ROOM_PAGES) if "cases" not in path.parts]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_of_the_pages_lead_somewhere(page):
     dead = []
-    for target in re.findall(r"\]\(([^)\s]+)(?:\s[^)]*)?\)", path.read_text()):
+    for target in re.findall(r"\]\(([^)\s]+)(?:\s[^)]*)?\)", page.read_text()):
         if re.match(r"[a-z]+:", target):
             continue
         file, _, anchor = target.partition("#")
-        there = ROOT / file if file else path
+        there = page.parent / file if file else page
         if not there.exists() or (anchor and there.suffix == ".md" and anchor not in headings(there)):
             dead.append(target)
     assert dead == []

@@ -182,7 +182,7 @@ def test_it_is_a_child_like_any_other():
 
 
 def test_programs_of_the_course():
-    bridge = [PYTHON, "-P", "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", "--help"]
+    bridge = [PYTHON, "-P", "-m", "gz_course.sim.bridge.ros_gz_bridge.parameter_bridge", "--help"]
     for words in (["ros2", "pkg", "prefix", "rclpy"], ["gz", "topic", "--help"], ["course", "list", "--help"], bridge):
         new, warm = both([str(PROGRAMS / words[0]), *words[1:]])
         assert warm == new

@@ -173,7 +173,7 @@ def become(command, descriptors, channel):
 def set_environment(environment):
     os.environb.clear()
     os.environb.update(environment)
-    from gz_course.sim.prefix import local_setup  # what the `.pth` file of the course does at every start
+    from gz_course.sim.ros.prefix import local_setup  # what the `.pth` file of the course does at every start
 
     local_setup.main()
 

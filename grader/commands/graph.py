@@ -15,7 +15,7 @@ def command(
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address only.")] = False,
 ) -> None:
     """Draw nodes, topics, bridges and Gazebo's side, live in the browser or once with --svg; Ctrl-C ends it."""
-    from gz_course.sim.rqt_graph.rqt_graph import main
+    from gz_course.sim.show.rqt_graph.rqt_graph import main
 
     words = ["--all"] * all_topics + ["--no-browser"] * no_browser + ([f"--svg={svg}"] if svg is not None else [])
     raise typer.Exit(main(words, "course graph"))

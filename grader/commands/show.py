@@ -18,7 +18,7 @@ def command(
     """Open a recording in the Rerun viewer; the command ends when its window is closed, or with Ctrl-C."""
     from gz_course.grader.errors import UsageError
     from gz_course.grader.record.reading import Recording
-    from gz_course.sim.rviz2.viewer import ViewerError, binary, has_display
+    from gz_course.sim.show.rviz2.viewer import ViewerError, binary, has_display
 
     Recording(recording)
     if web:
@@ -38,8 +38,8 @@ def command(
 
 def _serve(recording: Path, browser: bool) -> None:
     from gz_course.grader.errors import UsageError
-    from gz_course.sim.rviz2.page import open_browser, until_ctrl_c
-    from gz_course.sim.rviz2.viewer import FileServer, Viewer, ViewerError
+    from gz_course.sim.show.rviz2.page import open_browser, until_ctrl_c
+    from gz_course.sim.show.rviz2.viewer import FileServer, Viewer, ViewerError
 
     try:
         with Viewer(web=True) as viewer, FileServer(recording) as server:

@@ -18,7 +18,7 @@ def command(
     save: Annotated[Path | None, typer.Option("--save", help="Write an .rrd file instead of showing anything.")] = None,
 ) -> None:
     """Show scans, pictures, clouds, paths, /tf, markers, plots and /rosout as they come; Ctrl-C ends it."""
-    from gz_course.sim.rviz2.rviz2 import main
+    from gz_course.sim.show.rviz2.rviz2 import main
 
     words = [*(topics or []), *(f"--plot={each}" for each in plot or []), f"--fixed-frame={fixed_frame}"]
     words += ["--web"] * web + ["--no-browser"] * no_browser + ([f"--save={save}"] if save is not None else [])

@@ -10,8 +10,8 @@ from pathlib import Path
 from gz_course.grader.errors import UsageError
 from gz_course.grader.film.film import snapshot
 from gz_course.grader.record.reading import Recording
-from gz_course.sim.rviz2.inline import Frame
-from gz_course.sim.rviz2.viewer import FileServer, Viewer, ViewerError
+from gz_course.sim.show.rviz2.inline import Frame
+from gz_course.sim.show.rviz2.viewer import FileServer, Viewer, ViewerError
 
 STILL = (800, 500)  # [px]
 

@@ -10,7 +10,7 @@ import numpy as np
 from gz_course.grader.film.stage import Stage, pose_at
 from gz_course.grader.record.bodies import chain_of
 from gz_course.grader.record.reading import Recording
-from gz_course.sim.rviz2.drawing import laser_scan, odometry
+from gz_course.sim.show.rviz2.drawing import laser_scan, odometry
 
 if TYPE_CHECKING:
     from PIL.Image import Image

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from gz_course.grader.run.run_loop import RunLoop
     from gz_course.grader.score.diagnosis import Diagnosis
     from gz_course.grader.submission import Submission
-    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
+    from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
 
 
 @dataclass(frozen=True)

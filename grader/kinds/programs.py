@@ -25,5 +25,5 @@ def node_command(program: Path, trial: Trial | None = None) -> list[str]:
 def launch_command(program: Path, arguments: Mapping[str, Any]) -> list[str]:
     """Return the command that runs a launch file, as `ros2 launch FILE NAME:=VALUE ...` does."""
     words = [f"{name}:={str(value).lower() if isinstance(value, bool) else value}" for name, value in arguments.items()]
-    ros2 = "import sys; from gz_course.sim.ros2.command_line import main; sys.exit(main())"
+    ros2 = "import sys; from gz_course.sim.ros.ros2.command_line import main; sys.exit(main())"
     return [sys.executable, "-P", "-c", ros2, "launch", str(program), *words]

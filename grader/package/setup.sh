@@ -21,7 +21,7 @@ fi
 command -v bwrap >/dev/null || apt-get install -y bubblewrap || true
 
 # Who unpacks a zip may drop what is a program; `ros2 run` starts these.
-grep -rlIZ '^#!' "$root/source/course/sim/prefix" | xargs -0 chmod +x
+grep -rlIZ '^#!' "$root/source/course/sim/ros/prefix" | xargs -0 chmod +x
 
 "$python" -m venv "$root/venv"
 "$root/venv/bin/pip" install --disable-pip-version-check --constraint "$root/source/course/constraints.txt" "$root/source/course"

@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 
 from gz_course.grader.record.recorder import Recorder
-from gz_course.sim.rviz2.drawing.fields import fields
-from gz_course.sim.rviz2.drawing.image import jpeg
+from gz_course.sim.show.rviz2.drawing.fields import fields
+from gz_course.sim.show.rviz2.drawing.image import jpeg
 
 LONGEST_LIST = 20_000  # numbers; longer lists, such as images and clouds, are not stored as numbers
 MOST_TRANSFORMS = 100  # of one message

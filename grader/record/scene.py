@@ -10,7 +10,7 @@ import numpy as np
 import rerun as rr
 
 from gz_course.grader.record.recorder import Recorder
-from gz_course.sim.rviz2.drawing import laser_scan
+from gz_course.sim.show.rviz2.drawing import laser_scan
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.world import World

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import Exercise
-from gz_course.sim.ros_gz_bridge.config import ConfigError, load_yaml
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
+from gz_course.sim.bridge.ros_gz_bridge.config import ConfigError, load_yaml
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
 
 
 def exercise_bridge(exercise: Exercise) -> list[BridgeEntry]:

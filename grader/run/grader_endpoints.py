@@ -32,8 +32,8 @@ from gz_course.grader.run.agent.course_agent.history import kept_depth
 from gz_course.grader.run.agent.course_agent.rosout_counter import ROSOUT
 from gz_course.grader.run.discovery import UNKNOWN, Discovery
 from gz_course.grader.run.fair_clock import FairClock, Patience
+from gz_course.sim.bridge.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 from gz_course.sim.gz.transport import Node as GzNode
-from gz_course.sim.ros_gz_bridge.bridge import Bridge, BridgeEntry, HeaderOverrides
 
 NAMES = 5.0  # [s] for the names of nodes to arrive
 LOOK_AGAIN = 0.02  # [s] between two looks

@@ -32,12 +32,12 @@ from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.processes.submission_processes import LONGEST_LINE, SHOWN_FOLDER, SubmissionProcesses
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.run.trial_world import load_trial_world
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.errors import SimError
 from gz_course.sim.gz.sim.server import Server
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
 # A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, of waiting for them, and

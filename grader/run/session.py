@@ -27,7 +27,7 @@ from gz_course.grader.run.processes.submission_processes import SubmissionProces
 from gz_course.grader.run.sandbox import AUTO, Sandbox
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.submission import Submission
-from gz_course.sim.ros_gz_bridge.qos_profile import reliable
+from gz_course.sim.bridge.ros_gz_bridge.qos_profile import reliable
 
 if TYPE_CHECKING:
     from gz_course.grader.record.recorder import Recorder
@@ -96,7 +96,7 @@ def run(
             leave_out_generator()
             from gz_course.grader.record.recorder import Recorder
             from gz_course.grader.run.properties import write_properties
-            from gz_course.sim.ros_gz_bridge.entry import BridgeError
+            from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeError
 
             make_loop = kind.run_loop()
         try:

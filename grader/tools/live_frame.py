@@ -42,7 +42,7 @@ class WorldView:
         """Start it; `frame` shows it, or says in one sentence why there is none."""
         self._view: Any = None
         try:
-            room = importlib.import_module("gz_course.sim.view")
+            room = importlib.import_module("gz_course.sim.gz.view")
         except ModuleNotFoundError:
             self.frame = LiveFrame("There is no live view in this copy of the course; a recording can be replayed.")
             return

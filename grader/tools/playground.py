@@ -247,7 +247,7 @@ class Playground:
         It is a program like those of `start`, and a further call ends it.
         """
         from gz_course.grader.tools.live_frame import LiveFrame
-        from gz_course.sim.rviz2.inline import NOT_HERE
+        from gz_course.sim.show.rviz2.inline import NOT_HERE
 
         if jupyter_proxy.is_between():
             return LiveFrame(f"What ROS says on {', '.join(topics) or 'all topics'}: {NOT_HERE}.")

@@ -68,7 +68,7 @@ PACKAGES = (
     "gz_course.sim.gz.sim.editing",
     "gz_course.sim.gz.sim.sensors",
     "gz_course.sim.gz.sim.systems",
-    "gz_course.sim.ros_gz_bridge",
+    "gz_course.sim.bridge.ros_gz_bridge",
 )
 
 

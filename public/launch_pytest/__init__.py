@@ -4,4 +4,4 @@ import launch
 
 from gz_course.sim.public_name import stand_beside
 
-stand_beside(launch, __name__, "gz_course.sim.launch_pytest")
+stand_beside(launch, __name__, "gz_course.sim.ros.launch_pytest")

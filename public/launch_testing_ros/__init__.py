@@ -2,4 +2,4 @@
 
 from gz_course.sim.public_name import stand_for
 
-stand_for(__name__, "gz_course.sim.launch_testing_ros")
+stand_for(__name__, "gz_course.sim.ros.launch_testing_ros")

@@ -2,4 +2,4 @@
 
 from gz_course.sim.public_name import stand_for
 
-stand_for(__name__, "gz_course.sim.message_filters")
+stand_for(__name__, "gz_course.sim.ros.message_filters")

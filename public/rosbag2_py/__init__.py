@@ -2,4 +2,4 @@
 
 from gz_course.sim.public_name import stand_for
 
-stand_for(__name__, "gz_course.sim.rosbag2_py")
+stand_for(__name__, "gz_course.sim.ros.rosbag2_py")

@@ -2,4 +2,4 @@
 
 from gz_course.sim.public_name import stand_for
 
-stand_for(__name__, "gz_course.sim.sensor_msgs_py")
+stand_for(__name__, "gz_course.sim.ros.sensor_msgs_py")

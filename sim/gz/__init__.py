@@ -1,1 +1,1 @@
-"""Gazebo: messages (`msgs`), topics and services (`transport`), the simulator (`sim`), and the `gz` command."""
+"""Gazebo: messages (`msgs`), topics and services (`transport`), simulator (`sim`), its view, and the `gz` command."""

@@ -83,7 +83,7 @@ class Process:
 def running_bridge(*arguments, **environment):
     """A parameter_bridge that is ready."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", *arguments],
+        [sys.executable, "-m", "gz_course.sim.bridge.ros_gz_bridge.parameter_bridge", *arguments],
         stderr=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         text=True,

@@ -8,10 +8,10 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from gz_course.sim.ros_gz_bridge.arguments import read_arguments
-from gz_course.sim.ros_gz_bridge.config import MAX_BYTES, read_file, read_yaml
-from gz_course.sim.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS
-from gz_course.sim.ros_gz_bridge.type_pairs import pairs
+from gz_course.sim.bridge.ros_gz_bridge.arguments import read_arguments
+from gz_course.sim.bridge.ros_gz_bridge.config import MAX_BYTES, read_file, read_yaml
+from gz_course.sim.bridge.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS
+from gz_course.sim.bridge.ros_gz_bridge.type_pairs import pairs
 from gz_course.tests.bench.row import Row
 
 FILES, ARGUMENTS = 7000, 3000

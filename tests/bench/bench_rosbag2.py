@@ -41,7 +41,7 @@ def running(*command):
 def node():
     import rclpy
 
-    from gz_course.sim.ros_program.shared_memory import segment_for_images
+    from gz_course.sim.ros.ros_program.shared_memory import segment_for_images
 
     with segment_for_images():
         context = rclpy.Context()
@@ -83,7 +83,7 @@ def heard_by(command, publisher, message, count):
 def recording(folder) -> Row:
     from sensor_msgs.msg import Image
 
-    from gz_course.sim.rosbag2.storage.bag import Bag
+    from gz_course.sim.ros.rosbag2.storage.bag import Bag
 
     count = SECONDS * IMAGE_HERTZ
     image = Image(height=1, width=IMAGE_BYTES, step=IMAGE_BYTES, encoding="mono8", data=bytes(IMAGE_BYTES))
@@ -112,10 +112,10 @@ def playing(folder) -> Row:
     from rclpy.executors import SingleThreadedExecutor
     from std_msgs.msg import String
 
-    from gz_course.sim.rosbag2.definitions import definition
-    from gz_course.sim.rosbag2.storage.bag_writer import BagWriter
-    from gz_course.sim.rosbag2.storage.metadata import Topic
-    from gz_course.tests.sim.rosbag2.bags import START, string
+    from gz_course.sim.ros.rosbag2.definitions import definition
+    from gz_course.sim.ros.rosbag2.storage.bag_writer import BagWriter
+    from gz_course.sim.ros.rosbag2.storage.metadata import Topic
+    from gz_course.tests.sim.ros.rosbag2.bags import START, string
 
     count, step = SECONDS * PLAYED_HERTZ, 10**9 // PLAYED_HERTZ
     writer = BagWriter(folder / "even")

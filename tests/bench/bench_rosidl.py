@@ -87,7 +87,7 @@ def memory() -> int:
 def message_rows(node: Any, executor: Any) -> Iterator[Row]:
     import importlib
 
-    from gz_course.sim.rosidl.interface_classes import classes_of
+    from gz_course.sim.ros.rosidl.interface_classes import classes_of
 
     for kind, (package, count, wanted) in PAYLOADS.items():
         text = Path(sys.prefix, "share", package, "msg", f"{kind}.msg")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from geometry_msgs.msg import TransformStamped
 from rclpy.time import Time
 
-from gz_course.sim.tf2_py import BufferCore
+from gz_course.sim.ros.tf2_py import BufferCore
 from gz_course.tests.bench.row import Row
 
 LINKS, STAMPS, RATE_HZ = 5, 500, 50

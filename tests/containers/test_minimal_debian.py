@@ -53,7 +53,7 @@ def test_the_commands_of_the_readme(base: Path, tmp_path: Path) -> None:
     told = run(layer, "make demo")
     assert told.count("score: 100 of 100") == 2, told[-3000:]
     # The tests of the rooms that know most about the machine, in place of all.
-    rooms = "tests/sim/test_machine.py tests/sim/prefix tests/sim/ros2/test_run.py tests/grader/process"
+    rooms = "tests/sim/test_machine.py tests/sim/ros/prefix tests/sim/ros/ros2/test_run.py tests/grader/process"
     told = run(layer, f"make .venv/with-tools && .venv/bin/pytest -q -m 'not proof' {rooms}")
     assert " passed" in told and " failed" not in told
 

@@ -7,7 +7,7 @@ import pytest
 from ament_index_python.packages import get_package_prefix
 
 from gz_course.sim.gz.command import find_commands
-from gz_course.sim.ros2.command_line import COMMANDS, found
+from gz_course.sim.ros.ros2.command_line import COMMANDS, found
 
 PAGE = (Path(__file__).parents[2] / "docs" / "full_install.md").read_text()
 HERE = [line.split("|")[1] for line in PAGE.splitlines() if line.startswith("| `")]

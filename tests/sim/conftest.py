@@ -100,7 +100,7 @@ class Programs:
         return self._started[-1]
 
     def ros2(self, *words, **variables):
-        return self.start(sys.executable, "-m", "gz_course.sim.ros2", *words, **variables)
+        return self.start(sys.executable, "-m", "gz_course.sim.ros.ros2", *words, **variables)
 
     def module(self, name, *words, **variables):
         return self.start(sys.executable, "-P", "-m", name, *words, **variables)

@@ -10,10 +10,10 @@ import psutil
 import pytest
 
 from gz_course.sim import orphan_watch
-from gz_course.sim.launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
-from gz_course.sim.launch.event_handlers import OnProcessStart
+from gz_course.sim.ros.launch.actions import ExecuteProcess, OpaqueFunction, RegisterEventHandler, Shutdown
+from gz_course.sim.ros.launch.event_handlers import OnProcessStart
 from gz_course.tests.sim.command_line import command_of
-from gz_course.tests.sim.launch.conftest import log_folder, run  # noqa: F401
+from gz_course.tests.sim.ros.launch.conftest import log_folder, run  # noqa: F401
 
 KILLED = """\
 import sys

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import psutil
 
+from gz_course.sim.bridge.ros_gz_bridge.type_pairs import pairs
 from gz_course.sim.gz.msgs.clock_pb2 import Clock
 from gz_course.sim.gz.transport import Node, NodeOptions
-from gz_course.sim.ros_gz_bridge.type_pairs import pairs
 from gz_course.tests.soak.nodes import NODES
 from gz_course.tests.soak.watched import Outcome, Watched, end, entries, left_behind, shared_names, watch
 

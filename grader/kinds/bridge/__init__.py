@@ -20,9 +20,9 @@ from gz_course.grader.printable import shown
 if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
     from gz_course.grader.submission import Submission
-    from gz_course.sim.ros_gz_bridge.config import Config
-    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
-    from gz_course.sim.ros_gz_bridge.finding import Finding
+    from gz_course.sim.bridge.ros_gz_bridge.config import Config
+    from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
+    from gz_course.sim.bridge.ros_gz_bridge.finding import Finding
 
 NODE = "ros_gz_bridge"  # name of the bridge's node; `~` in a ROS name stands for it
 MOST_BRIDGES = 100
@@ -31,8 +31,8 @@ KEY = re.compile(r"[\w/~.-]+:")
 
 def read(name: str, content: bytes) -> Config:
     """Read the entries of the file, including faulty ones."""
-    from gz_course.sim.ros_gz_bridge.checks import private_gz_names
-    from gz_course.sim.ros_gz_bridge.config import read_yaml
+    from gz_course.sim.bridge.ros_gz_bridge.checks import private_gz_names
+    from gz_course.sim.bridge.ros_gz_bridge.config import read_yaml
 
     config = read_yaml(content, name)
     config.findings += private_gz_names(config.topics, config.services)

@@ -19,8 +19,8 @@ from gz_course.sim.gz.command_line import Parser
 from gz_course.sim.gz.sim.commands import sim
 
 SIMULATORS = ("gz", "gz_course.sim.gz.command")
-BRIDGES = ("parameter_bridge", "gz_course.sim.ros_gz_bridge.parameter_bridge")
-ENTITIES = "gz_course.sim.ros_gz_sim."  # modules that create, move and remove
+BRIDGES = ("parameter_bridge", "gz_course.sim.bridge.ros_gz_bridge.parameter_bridge")
+ENTITIES = "gz_course.sim.bridge.ros_gz_sim."  # modules that create, move and remove
 # What a message asks for, by its first key; "stopped" is for both.
 WORLD, BRIDGE, ENTITY = "a simulator", "a bridge", "an entity"
 ASKS = {

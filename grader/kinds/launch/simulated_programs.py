@@ -21,12 +21,12 @@ from gz_course.grader.kinds.launch.robot_facts import MOST_ROBOTS, robot_facts
 from gz_course.grader.kinds.launch.submitted_world import SubmittedWorld
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
 from gz_course.grader.run.processes.participant import Participant
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
 from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError, one_line
 from gz_course.sim.gz.sim.sdf.reader import read_world_file
 from gz_course.sim.gz.sim.sdf.resources import BUILT_IN_WORLDS
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction, HeaderOverrides
 
 MOST_ENTRIES = 200  # of one bridge
 MOST_WARNINGS = 50  # about a world that are shown to its owner

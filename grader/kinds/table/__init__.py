@@ -53,7 +53,7 @@ def read(name: str, content: bytes) -> list[dict[str, Any]]:
     """
     import yaml
 
-    from gz_course.sim.ros_gz_bridge.config import ConfigError, compose
+    from gz_course.sim.bridge.ros_gz_bridge.config import ConfigError, compose
 
     if len(content) > MOST_BYTES:
         raise TableError(1, f"the file has {len(content)} bytes; such a table needs no more than {MOST_BYTES}")

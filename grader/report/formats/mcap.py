@@ -39,7 +39,7 @@ def as_mcap(report: Report) -> bytes:
     """Return an MCAP file. Raises UsageError if the recording cannot be read."""
     from mcap_ros2.writer import Writer
 
-    from gz_course.sim.rosbag2.definitions import definition
+    from gz_course.sim.ros.rosbag2.definitions import definition
 
     recording = report.trials[0].content() if report.trials else _read(report)
     out = io.BytesIO()
@@ -87,7 +87,7 @@ def _rows(recording: Recording, left_out: list[str]) -> Iterator[Row]:
 
 def _leaves(kind: str) -> Leaves | None:
     """Return the fields of a message that are no messages themselves; None if the recording cannot keep them."""
-    from gz_course.sim.rosbag2.definitions import UNKNOWN, definition, nested_types, parts_of
+    from gz_course.sim.ros.rosbag2.definitions import UNKNOWN, definition, nested_types, parts_of
 
     encoding, text = definition(kind)
     if encoding == UNKNOWN[0]:

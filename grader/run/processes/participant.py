@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import re
 import socket
 from collections.abc import Callable
 from dataclasses import replace
@@ -71,7 +72,7 @@ class Participant:
     def program(self) -> str:
         """The program's name for people: the file or module that Python runs."""
         words = [word for word in self.command[1:] if word not in ("-m", "-P", "-c")]
-        return words[0].rpartition("/")[2].removeprefix("gz_course.sim.") if words else ""
+        return re.sub(r"^gz_course\.sim\.(bridge|ros|show)\.", "", words[0].rpartition("/")[2]) if words else ""
 
     @property
     def works(self) -> bool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from gz_course.sim.ros_gz_bridge.entry import Direction
-from gz_course.sim.ros_gz_bridge.type_pairs import UnknownPairError, find_pair
+from gz_course.sim.bridge.ros_gz_bridge.entry import Direction
+from gz_course.sim.bridge.ros_gz_bridge.type_pairs import UnknownPairError, find_pair
 
 _MARKS = {Direction.BIDIRECTIONAL: "@", Direction.GZ_TO_ROS: "[", Direction.ROS_TO_GZ: "]"}
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rclpy.logging import get_logging_directory
 
-from gz_course.sim.ros_program.last_words import LastWords, found
+from gz_course.sim.ros.ros_program.last_words import LastWords, found
 
 _PROGRAMS = ("parameter_bridge", "image_bridge", "robot_state_publisher", "static_transform_publisher")
 

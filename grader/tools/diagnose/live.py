@@ -74,7 +74,7 @@ def observe(seconds: float) -> System:
     from gz_course.grader.tools.diagnose.distant import distant_processes
     from gz_course.grader.tools.diagnose.ended import ended_programs
     from gz_course.grader.tools.diagnose.stopped import stopped_processes
-    from gz_course.sim.ros2.errors import CommandError
+    from gz_course.sim.ros.ros2.errors import CommandError
 
     stop = threading.Event()
     with ThreadPoolExecutor(1, "gz-side") as pool:

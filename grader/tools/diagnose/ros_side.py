@@ -17,12 +17,12 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from gz_course.grader.tools.diagnose.system import Heard, HeardMessage, RosEndpoint, RosNode, RosSide, RunningBridge
-from gz_course.sim.ros2.errors import CommandError
-from gz_course.sim.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph, destroy_ended
-from gz_course.sim.ros2.interface import message_class
-from gz_course.sim.ros_gz_bridge import bridged_topics
-from gz_course.sim.ros_gz_bridge.config import read_file
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.bridge.ros_gz_bridge import bridged_topics
+from gz_course.sim.bridge.ros_gz_bridge.config import read_file
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.ros.ros2.errors import CommandError
+from gz_course.sim.ros.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph, destroy_ended
+from gz_course.sim.ros.ros2.interface import message_class
 
 ANSWER_WITHIN = 1.0  # [s] for all nodes to return their parameters
 KEEP = 5  # messages kept of a topic

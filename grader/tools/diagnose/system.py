@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gz_course.grader.tools.diagnose.world_text import WorldText
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
 from gz_course.sim.did_you_mean import nearest_name
 from gz_course.sim.gz.transport import MessagePublisher, ServicePublisher
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry
-from gz_course.sim.ros_program.last_words import LastWords
+from gz_course.sim.ros.ros_program.last_words import LastWords
 
 OTHER_TYPE = 0.8
 """Least similarity of a name that may be the intended one although its type differs."""

@@ -63,7 +63,7 @@ def test_what_is_in_it(archive, root):
             text = packed.read(program).decode()
             assert "@" not in text.replace('"$@"', "") and text.startswith("#!"), f"{program} is filled in"
             assert subprocess.run(["bash", "-n"], input=text.encode()).returncode == 0
-        program = "course/sim/prefix/lib/robot_state_publisher/robot_state_publisher"
+        program = "course/sim/ros/prefix/lib/robot_state_publisher/robot_state_publisher"
         assert packed.getinfo(program).external_attr >> 16 & 0o111, "ros2 run starts it"
         assert not packed.getinfo("course/LICENSE").external_attr >> 16 & 0o111
     assert {"course/pyproject.toml", "course/README.md", f"course/exercises/03_teleop/{FILE}"} <= names

@@ -8,8 +8,8 @@ from rclpy.qos import DurabilityPolicy
 
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, BridgeError, Direction
 
 
 def executors():

@@ -16,10 +16,10 @@ from gz_course.grader.run.graph_snapshot import both_graphs
 from gz_course.grader.run.pace.matching import can_match
 from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.sandbox import ros_environment
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, Direction
 from gz_course.sim.gz.msgs.double_pb2 import Double
 from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
 BOTH = BridgeEntry(
     "/words", "/gz/words", "std_msgs/msg/String", "gz.msgs.StringMsg", Direction.BIDIRECTIONAL, source="/x/b.yaml:3"

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from gz_course.grader.tools import slim
-from gz_course.sim.rviz2.viewer import ViewerError, binary
+from gz_course.sim.show.rviz2.viewer import ViewerError, binary
 
 
 def test_only_what_is_named_goes(tmp_path, monkeypatch, capsys):

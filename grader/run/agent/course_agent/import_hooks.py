@@ -24,9 +24,9 @@ AFTER = {
 }
 # The same for processes whose Gazebo is simulated by the grader, and our modules that replace those of Gazebo.
 AFTER_WHEN_REMOTE = {
-    "gz_course.sim.ros_gz_bridge.bridge": ("remote_bridge", "install"),
-    "gz_course.sim.ros_gz_bridge.watch": ("remote_bridge", "install_watcher"),
-    "gz_course.sim.ros_gz_sim.running_world": ("remote_running_world", "install"),
+    "gz_course.sim.bridge.ros_gz_bridge.bridge": ("remote_bridge", "install"),
+    "gz_course.sim.bridge.ros_gz_bridge.watch": ("remote_bridge", "install_watcher"),
+    "gz_course.sim.bridge.ros_gz_sim.running_world": ("remote_running_world", "install"),
 }
 INSTEAD_WHEN_REMOTE = {
     "gz_course.sim.gz.sim.world": "remote_simulator",

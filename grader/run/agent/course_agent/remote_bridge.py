@@ -28,7 +28,7 @@ class RemoteBridge:
         services: Iterable[Any] = (),
         **options: Any,
     ) -> None:
-        from gz_course.sim.ros_gz_bridge.entry import BridgeError
+        from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeError
 
         self.entries = list(entries)
         self.services = list(services)
@@ -46,7 +46,7 @@ class RemoteBridge:
 
     def status(self) -> list[Any]:
         """Return no counters, because the grader has them."""
-        from gz_course.sim.ros_gz_bridge.entry import EntryStatus
+        from gz_course.sim.bridge.ros_gz_bridge.entry import EntryStatus
 
         return [EntryStatus(entry) for entry in self.entries]
 
@@ -71,13 +71,13 @@ class NoWatcher:
 
 def install() -> None:
     """Replace the class in ros_gz_bridge.bridge, which has just been imported, by `RemoteBridge`."""
-    from gz_course.sim.ros_gz_bridge import bridge
+    from gz_course.sim.bridge.ros_gz_bridge import bridge
 
     bridge.Bridge = RemoteBridge  # type: ignore[assignment, misc]
 
 
 def install_watcher() -> None:
     """Replace the class in ros_gz_bridge.watch, which has just been imported, by `NoWatcher`."""
-    from gz_course.sim.ros_gz_bridge import watch
+    from gz_course.sim.bridge.ros_gz_bridge import watch
 
     watch.Watcher = NoWatcher  # type: ignore[assignment, misc]

@@ -23,7 +23,7 @@ class RemoteRunningWorld:
     def __init__(
         self, node: Any, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
     ) -> None:
-        from gz_course.sim.ros_program.errors import Failure
+        from gz_course.sim.ros.ros_program.errors import Failure
 
         end = (monotonic() if start is None else start) + timeout
         worlds: list[str] = []
@@ -47,7 +47,7 @@ class RemoteRunningWorld:
     def call(self, verb: str, request: Any) -> bool:
         """Ask `/world/NAME/VERB` and wait until it is done; False when the simulator refuses."""
         from gz_course.sim.gz.sim.errors import LOG, SimError
-        from gz_course.sim.ros_program.errors import Failure
+        from gz_course.sim.ros.ros_program.errors import Failure
 
         asked: dict[str, Any] = {"verb": verb, "type": request.DESCRIPTOR.full_name, "description": ""}
         sent = type(request).FromString(request.SerializeToString())
@@ -94,6 +94,6 @@ def _handed_over(text: str, file: str) -> tuple[str, list[str]]:
 
 def install() -> None:
     """Put `RemoteRunningWorld` in place; ros_gz_sim.running_world has just been imported."""
-    from gz_course.sim.ros_gz_sim import running_world
+    from gz_course.sim.bridge.ros_gz_sim import running_world
 
     running_world.RunningWorld = RemoteRunningWorld  # type: ignore[assignment, misc]

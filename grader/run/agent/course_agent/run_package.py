@@ -56,8 +56,8 @@ def _node(file: Path, arguments: list[str], parameters: dict[str, Any]) -> list[
 
 def build_all(folder: Path, install: Path) -> list[str]:
     """Build every package below a folder; return what is wrong with them, each fault in one sentence."""
-    from gz_course.sim.ament_cmake.build import Package, build
-    from gz_course.sim.rosidl.packages import prefixes
+    from gz_course.sim.ros.ament_cmake.build import Package, build
+    from gz_course.sim.ros.rosidl.packages import prefixes
 
     before = [Path(sys.prefix), *map(Path, prefixes())]
     faults = []

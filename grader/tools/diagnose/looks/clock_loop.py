@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.tools.diagnose.finding import Finding, Severity
 from gz_course.grader.tools.diagnose.system import System
-from gz_course.sim.ros_gz_bridge.entry import Direction
+from gz_course.sim.bridge.ros_gz_bridge.entry import Direction
 
 
 def look(system: System) -> Iterator[Finding]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from gz_course.grader.tools.diagnose.advice import bridge_command, can_bridge
 from gz_course.grader.tools.diagnose.finding import Finding, Severity
 from gz_course.grader.tools.diagnose.system import INFRASTRUCTURE, RosEndpoint, System, users
-from gz_course.sim.ros_gz_bridge.entry import Direction
+from gz_course.sim.bridge.ros_gz_bridge.entry import Direction
 
 BEFORE = ("no_answer",)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from gz_course.grader.tools.doctor.probe import Probes
 from gz_course.grader.tools.doctor.verdict import Verdict, fine, warning
-from gz_course.sim.ros2.hand_over import sourced_ros2
+from gz_course.sim.ros.ros2.hand_over import sourced_ros2
 
 TITLE = "other installations of ROS 2 and Gazebo"
 COMMANDS = ("course", "ros2", "gz", "parameter_bridge")

@@ -1,7 +1,7 @@
 """Run a simulation, and look at it: `gz sim FILE -r`.
 
 It loads the world, serves it on gz-transport (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the last iteration.
-Beside it a view opens in the browser (`gz_course.sim.view`), unless -s is given; -g opens one of a world that runs
+Beside it a view opens in the browser (`gz_course.sim.gz.view`), unless -s is given; -g opens one of a world that runs
 already. The view is a process of its own: whatever happens to it, the simulation goes on.
 
 Exit codes: 0 normal end, 1 the world cannot be run, 2 no world was named, 3 internal error of the simulator; usage
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gz_course.sim.gz.sim.sdf.description import Plugin
     from gz_course.sim.gz.sim.world import World
     from gz_course.sim.gz.transport import Node
-    from gz_course.sim.view import View
+    from gz_course.sim.gz.view import View
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
@@ -135,7 +135,7 @@ def run(values: argparse.Namespace) -> int:
 
 def _view_only(values: argparse.Namespace, stop: threading.Event) -> int:
     """Show the world that runs in this partition, or the first one that starts, until SIGINT or SIGTERM."""
-    from gz_course.sim.view import View
+    from gz_course.sim.gz.view import View
 
     def ready(view: View) -> None:
         if view.address:
@@ -153,7 +153,7 @@ def _view_only(values: argparse.Namespace, stop: threading.Event) -> int:
 
 def _open_view(values: argparse.Namespace, world: str) -> View:
     """Open a view beside the simulator, and say where; it comes while the world runs already."""
-    from gz_course.sim.view import View
+    from gz_course.sim.gz.view import View
 
     def say(sentence: str) -> None:
         if values.verbose > 0:

@@ -1,6 +1,6 @@
 """ViewBroadcaster: sends MuJoCo's model and state to views of the world; a plugin of the world, added by `gz sim`.
 
-A view in another process draws them (`gz_course.sim.view`). This is the whole protocol, below `/world/W/view`:
+A view in another process draws them (`gz_course.sim.gz.view`). This is the whole protocol, below `/world/W/view`:
 
 - service `model` (Empty -> Bytes): the stamp of the model, then the model as MuJoCo's binary file (MJB);
 - topic `state` (Bytes): the stamp of the model that the state belongs to, then MuJoCo's integration state;

@@ -10,7 +10,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, String
 
 from gz_course.grader.feedback.errors.python_errors import meaning
-from gz_course.sim.tf2_py import BufferCore
+from gz_course.sim.ros.tf2_py import BufferCore
 
 
 class Forgetful(Node):

@@ -10,7 +10,7 @@ from mcap_ros2.decoder import DecoderFactory
 from gz_course.grader.record.messages import record_message
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.report.formats.mcap import as_mcap
-from gz_course.sim.rosbag2.storage.bag import Bag
+from gz_course.sim.ros.rosbag2.storage.bag import Bag
 
 pytestmark = pytest.mark.usefixtures("without_blueprint")
 

@@ -48,8 +48,8 @@ def play(tmp_path, monkeypatch):
     """Run files as processes of one submission for some ticks of simulated time; what they said on `observe`."""
     from gz_course.grader.run.grader_endpoints import GraderEndpoints
     from gz_course.grader.run.pace.lockstep import LockStep
+    from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, Direction
     from gz_course.sim.gz.transport import Node, NodeOptions, Scope
-    from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 

@@ -112,8 +112,8 @@ def test_a_process_of_another_grading_is_not_heard(boxed):
     ("words", "program"),
     [
         (
-            ["-P", "-m", "gz_course.sim.ros_gz_bridge.parameter_bridge", "-h"],
-            "gz_course.sim.ros_gz_bridge.parameter_bridge",
+            ["-P", "-m", "gz_course.sim.bridge.ros_gz_bridge.parameter_bridge", "-h"],
+            "gz_course.sim.bridge.ros_gz_bridge.parameter_bridge",
         ),
         (["-m", "gz_course.sim.gz.command", "sim"], ""),  # may be a file of the current folder
         ([str(Path(sys.executable).with_name("gz")), "sim"], "gz"),

@@ -5,7 +5,7 @@ import pytest
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.kinds.bridge import read
 from gz_course.grader.score.check import check_kinds
-from gz_course.sim.ros_gz_bridge import type_pairs
+from gz_course.sim.bridge.ros_gz_bridge import type_pairs
 
 ENTRY = """
 - ros_topic_name: /scan

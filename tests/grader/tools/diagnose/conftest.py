@@ -113,10 +113,10 @@ class Broken:
 
     def bridge(self, *rows, name="ros_gz_bridge"):
         """A bridge of (ros topic, gz topic, ros type, gz type, direction), as parameter_bridge makes it."""
+        from gz_course.sim.bridge.ros_gz_bridge import bridged_topics
+        from gz_course.sim.bridge.ros_gz_bridge.bridge import Bridge
+        from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, Direction
         from gz_course.sim.gz.transport import Node
-        from gz_course.sim.ros_gz_bridge import bridged_topics
-        from gz_course.sim.ros_gz_bridge.bridge import Bridge
-        from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
 
         node = self.node(name)
         entries = [BridgeEntry(*row[:4], direction=Direction[row[4]]) for row in rows]

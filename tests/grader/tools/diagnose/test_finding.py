@@ -24,7 +24,7 @@ from gz_course.grader.tools.diagnose.system import (
     users,
 )
 from gz_course.grader.tools.diagnose.world_text import DEFAULT_SYSTEMS, WorldText
-from gz_course.sim.ros_gz_bridge.entry import BridgeEntry, Direction
+from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, Direction
 
 
 def test_nothing_is_wrong_with_nothing():

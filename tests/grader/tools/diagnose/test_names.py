@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from gz_course.grader.tools.diagnose import ros_side
-from gz_course.sim.ros2.graph import UNKNOWN_NODE
+from gz_course.sim.ros.ros2.graph import UNKNOWN_NODE
 
 
 class Graph:

@@ -12,9 +12,9 @@ from gz_course.grader.tools.diagnose.distant import distant_processes, domains_o
 from gz_course.grader.tools.diagnose.ended import ended_programs
 from gz_course.grader.tools.diagnose.finding import findings
 from gz_course.grader.tools.diagnose.system import GzSide, RosSide, System
+from gz_course.sim.bridge.ros_gz_bridge import parameter_bridge
 from gz_course.sim.gz.transport.environment import default_partition
-from gz_course.sim.ros_gz_bridge import parameter_bridge
-from gz_course.sim.ros_program.last_words import LastWords, leave
+from gz_course.sim.ros.ros_program.last_words import LastWords, leave
 
 # The ports of a participant, and nothing else of it.
 PARTICIPANT = """

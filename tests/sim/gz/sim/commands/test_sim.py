@@ -274,7 +274,7 @@ def test_a_fault_of_ours_is_one_sentence_and_code_three(
 
 
 class FakeView:
-    """Stands for `gz_course.sim.view.View`: an address comes at once, or none."""
+    """Stands for `gz_course.sim.gz.view.View`: an address comes at once, or none."""
 
     made: ClassVar[list[FakeView]] = []
 
@@ -303,10 +303,10 @@ class FakeView:
 def test_a_view_opens_beside_the_simulator_and_ends_with_it(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import gz_course.sim.view
+    import gz_course.sim.gz.view
     from gz_course.sim.gz.command import main
 
-    monkeypatch.setattr(gz_course.sim.view, "View", FakeView)
+    monkeypatch.setattr(gz_course.sim.gz.view, "View", FakeView)
     run = ["sim", "-r", "--iterations", "3", "-z", "100000", "empty.sdf"]
     assert main([*run, "--http-port", "8123"]) == 0
     assert capsys.readouterr().err == "gz sim: see world 'empty' at http://127.0.0.1:1/token/\n"

@@ -1,0 +1,56 @@
+"""Dragging a link with the mouse: a force while the world runs, another pose while it is paused.
+
+Studio picks the link (double click) and moves the point it is drawn to (Ctrl and a mouse button); MuJoCo makes a force
+or a pose of it.
+
+Source: https://mujoco.readthedocs.io/en/stable/APIreference/APIfunctions.html#mjv-applyperturbforce
+"""
+
+from __future__ import annotations
+
+import time
+
+import mujoco
+import numpy as np
+
+from gz_course.sim.gz.view.entities import link_of_body
+from gz_course.sim.gz.view.world_link import WorldLink
+
+_PERIOD_S = 0.03
+"""Shortest time [s] between two messages."""
+
+
+class Dragging:
+    """What the mouse does to the selected link, sent to the world."""
+
+    def __init__(self, link: WorldLink) -> None:
+        self._link = link
+        self._pushed = ""
+        self._next = 0.0
+
+    def update(self, model: mujoco.MjModel, data: mujoco.MjData, perturb: mujoco.MjvPerturb, *, paused: bool) -> None:
+        """Send the drag of this picture, if there is one."""
+        name = link_of_body(model, perturb.select) if perturb.active else ""
+        if self._pushed and (paused or name != self._pushed):
+            self._link.drag(self._pushed, np.zeros(6))
+            self._pushed = ""
+        if not name or time.monotonic() < self._next:
+            return
+        self._next = time.monotonic() + _PERIOD_S
+        if paused:
+            self._move(model, data, perturb)
+            return
+        data.xfrc_applied[:] = 0.0
+        mujoco.mjv_applyPerturbForce(model, data, perturb)
+        self._link.drag(name, data.xfrc_applied[perturb.select])
+        self._pushed = name
+
+    def _move(self, model: mujoco.MjModel, data: mujoco.MjData, perturb: mujoco.MjvPerturb) -> None:
+        root = int(model.body_rootid[perturb.select])
+        joint = int(model.body_jntadr[root])
+        if joint < 0 or int(model.jnt_type[joint]) != int(mujoco.mjtJoint.mjJNT_FREE):
+            self._link.said = f"'{link_of_body(model, root)}' is held by a joint, so it can be dragged while time runs"
+            return
+        mujoco.mjv_applyPerturbPose(model, data, perturb, 1)
+        q = int(model.jnt_qposadr[joint])
+        self._link.set_pose(link_of_body(model, root), data.qpos[q : q + 3], data.qpos[q + 3 : q + 7])

@@ -1,5 +1,0 @@
-"""Descriptions of what can be executed."""
-
-from gz_course.sim.launch.descriptions.executable import Executable
-
-__all__ = ["Executable"]

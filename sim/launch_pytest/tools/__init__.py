@@ -1,5 +1,0 @@
-"""Waiting for the processes of a launch."""
-
-from gz_course.sim.launch_pytest.tools import process
-
-__all__ = ["process"]

@@ -1,5 +1,0 @@
-"""Event handlers for lifecycle nodes."""
-
-from gz_course.sim.launch_ros.event_handlers.on_state_transition import OnStateTransition
-
-__all__ = ["OnStateTransition"]

@@ -1,7 +1,0 @@
-"""Events of lifecycle nodes."""
-
-from gz_course.sim.launch_ros.events.lifecycle.change_state import ChangeState
-from gz_course.sim.launch_ros.events.lifecycle.state_transition import StateTransition
-from gz_course.sim.launch_ros.events.matchers import matches_node_name
-
-__all__ = ["ChangeState", "StateTransition", "matches_node_name"]

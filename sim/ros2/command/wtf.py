@@ -1,7 +1,0 @@
-"""Use `wtf` as alias to `doctor`."""
-
-from __future__ import annotations
-
-from gz_course.sim.ros2.command.doctor import add_arguments, main
-
-__all__ = ["add_arguments", "main"]
