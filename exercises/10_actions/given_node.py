@@ -1,19 +1,16 @@
-"""The dispatcher: sends goals to the action /patrol, and publishes on /dispatcher what became of them.
+"""The dispatcher: sends goals to the action /patrol, and reports to the grader what became of them.
 
-Its first argument says which goals, as JSON: `patrol` has `waypoints` [m] and `speed` [m/s], `too_fast` is above the
-largest speed [m/s], `cancelled` is a patrol that is cancelled `after` some time [s], `again` is a patrol after that.
-Each message on /dispatcher is a JSON object: its number, an `event`, the name of the `goal`, and what belongs to it.
+Its orders say which goals: `patrol` has `waypoints` [m] and `speed` [m/s], `too_fast` is above the largest speed [m/s],
+`cancelled` is a patrol that is cancelled `after` some time [s], `again` is a patrol after that. Each report has its
+number, an `event`, the name of the `goal`, and what belongs to it.
 """
-
-import json
-import sys
 
 import rclpy
 from action_msgs.msg import GoalStatus
+from course_agent.exercise_node import orders, ready, report
 from geometry_msgs.msg import Point
 from rclpy.action import ActionClient
 from rclpy.node import Node
-from std_msgs.msg import String
 
 FIELDS = {
     "Goal": {"waypoints": "sequence<geometry_msgs/Point>", "speed": "double"},
@@ -56,7 +53,6 @@ class Dispatcher(Node):
     def __init__(self, script):
         super().__init__("dispatcher")
         self.script = script
-        self.report = self.create_publisher(String, "/dispatcher", 100)
         self.number = 0
         self.waits = []
         self.action, fault = interface_fault()
@@ -90,8 +86,7 @@ class Dispatcher(Node):
 
     def say(self, event, goal, **more):
         self.number += 1
-        data = {"number": self.number, "event": event, "goal": goal} | more
-        self.report.publish(String(data=json.dumps(data)))
+        report(number=self.number, event=event, goal=goal, **more)
 
     def send(self, name, waypoints, speed):
         points = [Point(x=float(x), y=float(y)) for x, y in waypoints]
@@ -145,8 +140,8 @@ class Dispatcher(Node):
 
 def main():
     rclpy.init()
-    node = Dispatcher(json.loads(sys.argv[1]))
-    print("ready", flush=True)
+    node = Dispatcher(orders())
+    ready()
     rclpy.spin(node)
 
 

@@ -1,6 +1,6 @@
 """The checks of the patrol: what the dispatcher got from the action server, and what the robot really did.
 
-The dispatcher's messages are in `given_node.py`. Waypoints are in the frame odom, which begins where the robot starts.
+The dispatcher's reports are in `given_node.py`. Waypoints are in the frame odom, which begins where the robot starts.
 `misconceptions.py` says what a wrong patrol looks like.
 """
 
@@ -13,6 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import REPORTS
 from gz_course.grader.score.check import Finding
 
 NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
@@ -37,12 +38,8 @@ class Run:
     def __init__(self, recording):
         self.recording = recording
         self.events = []
-        for line in recording.lines("topics/dispatcher/data"):
-            try:
-                event = json.loads(line.text)
-                self.events.append(event | {"at": line.time_ns / 1e9})
-            except (ValueError, TypeError):
-                continue
+        for line in recording.lines(REPORTS):
+            self.events.append(json.loads(line.text) | {"at": line.time_ns / 1e9})
         x, y, yaw, self.linear, self.angular = (
             recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw", "linear_x", "angular_z")
         )

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
 
 EXERCISE_NODE = "given_node.py"  # beside the manifest
+APART = ".exercise"  # folder of it beside the packages of a submission, no file of which has such a name
 
 
 def exercise_node(exercise: Exercise) -> dict[str, bytes]:

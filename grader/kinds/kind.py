@@ -30,7 +30,7 @@ class RunPlan:
 
     `program` names the file among `files` that is started in the sandbox. `entries` are the bridges between simulator
     and ROS that exist from the beginning, `parameters` the ROS parameters of their bridge. `facts` are recorded
-    unchanged.
+    unchanged. `beside` are the files of a sandbox beside it, in which the exercise's own node runs, if it has any.
     """
 
     program: str
@@ -38,6 +38,7 @@ class RunPlan:
     entries: list[BridgeEntry] = field(default_factory=list)
     facts: dict[str, Any] = field(default_factory=dict)
     parameters: dict[str, str] = field(default_factory=dict)
+    beside: dict[str, bytes] = field(default_factory=dict)
 
     @property
     def kept(self) -> dict[str, str]:

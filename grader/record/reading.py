@@ -19,6 +19,8 @@ from gz_course.grader.errors import UsageError
 from gz_course.sim.did_you_mean import did_you_mean
 
 STUDENT_LOG, GIVEN_LOG = "log/student", "log/given_node"  # logs of the submission and of the exercise's own node
+# Of an exercise's own node beside the submission: what it has reported, as JSON, and what it has printed.
+REPORTS, PRINTED = "exercise_node/reports", "exercise_node/printed"
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ The student's process is started before anything heavy is imported here, so that
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -15,14 +16,16 @@ from typing import TYPE_CHECKING
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import MANIFEST, Exercise
 from gz_course.grader.exercise.trial import Trial
+from gz_course.grader.kinds.given_node import APART, EXERCISE_NODE
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.many_imports import many_imports
 from gz_course.grader.process.temporary_folder import sweep
 from gz_course.grader.run.agent.course_agent.endpoint_description import KEPT
-from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE, SIMULATED_CLOCKS
+from gz_course.grader.run.agent.course_agent.executor_monitor import RELIABLE, SIMULATED_CLOCKS, TOPICS
 from gz_course.grader.run.agent.course_agent.import_hooks import leave_out_generator
 from gz_course.grader.run.domain import Domain
+from gz_course.grader.run.processes.exercise_process import ExerciseProcess
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
 from gz_course.grader.run.supervision import Heartbeat
@@ -88,7 +91,14 @@ def run(
         command, variables = kind.command(folder / plan.program, trial), kind.environment(pace)
         if pace == "lockstep":
             variables = variables | {SIMULATED_CLOCKS: str(exercise.real_time_factor)}
-        processes = SubmissionProcesses(command, sandbox, topics, variables, shown=str(folder))
+        beside = None
+        if plan.beside:
+            other = Sandbox(domain.id, beside=sandbox)
+            stack.callback(other.close)
+            program, orders = f"{APART}/{EXERCISE_NODE}", trial.parameters.get("client", {})
+            beside = ExerciseProcess(plan.beside, program, orders, other, variables | {TOPICS: json.dumps(topics)})
+            stack.callback(beside.close)
+        processes = SubmissionProcesses(command, sandbox, topics, variables, shown=str(folder), beside=beside)
         stack.callback(processes.close)
         stack.enter_context(_environment(sandbox.grader_environment()))
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gz_course.grader.record.reading import Line, Signal
+from gz_course.grader.record.reading import REPORTS, Line, Signal
 
 CHECKS = runpy.run_path(str(Path(__file__).parents[2] / "exercises/10_actions/patrol_checks.py"))
 POINTS = [[1.2, 0.0], [1.2, 0.7]]
@@ -69,7 +69,7 @@ class Patrol:
         return [
             Line(round(at * 1e9), json.dumps({"number": 0, "event": event, "goal": goal} | more), "INFO")
             for at, event, goal, more in told
-            if entity == "topics/dispatcher/data"
+            if entity == REPORTS
         ]
 
     def facts(self):

@@ -1,5 +1,6 @@
-"""Submissions that report for the exercise's own node: what it found out is its word alone."""
+"""Submissions that report for the exercise's own node: what they publish is no report, under whatever name."""
 
+import json
 import shutil
 from pathlib import Path
 
@@ -7,16 +8,17 @@ import pytest
 
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.grade import grade
+from gz_course.grader.record.reading import REPORTS, Recording
 
 ROOT = Path(__file__).parents[2]
 SOLUTION = ROOT / "solutions/10_actions"
-# A server that rejects everything, and says itself that all went well.
+# A server that says itself that all went well.
 SAYS_SO = """
         from std_msgs.msg import String
         import json
         self.forged = self.create_publisher(String, "/dispatcher", 100)
-        for event in ("interface", "accepted", "succeeded"):
-            said = {"number": 1, "event": event, "goal": "patrol", "fault": "", "visited": 2}
+        for goal in ("empty", "too_fast", "backwards", "standing"):
+            said = {"number": 1, "event": "rejected", "goal": goal}
             self.create_timer(1.0, lambda said=said: self.forged.publish(String(data=json.dumps(said))))
 """
 # The same in a node of its own, under the name of the exercise's node.
@@ -30,12 +32,13 @@ IN_ITS_NAME = """
 
 @pytest.mark.proof
 @pytest.mark.parametrize("attack", [pytest.param(SAYS_SO, id="says so"), pytest.param(IN_ITS_NAME, id="in its name")])
-def test_a_report_in_the_name_of_the_exercises_node_is_tampering(attack, tmp_path):
+def test_what_is_said_in_the_name_of_the_exercises_node_is_no_report(attack, tmp_path):
     shutil.copytree(SOLUTION / "patrol_interfaces", tmp_path / "submission/patrol_interfaces")
-    text = (SOLUTION / "patrol_server.py").read_text()
+    text = (SOLUTION / "rejected/accepts_everything/patrol_server.py").read_text()
     place = "        self.busy = False\n"
     assert place in text
     (tmp_path / "submission/patrol_server.py").write_text(text.replace(place, place + attack, 1))
     report = grade(find_exercise("10_actions", ROOT), tmp_path / "submission", tmp_path / "out")
-    assert (report.score.outcome, report.score.points) == ("tamper", 0), report.score.diagnosis
-    assert "/dispatcher, which belongs to the exercise's own node" in report.score.diagnosis
+    assert (report.score.outcome, report.score.points) == ("graded", 85), report.score.diagnosis
+    numbers = [json.loads(line.text)["number"] for line in Recording(report.recording).lines(REPORTS)]
+    assert numbers == list(range(1, len(numbers) + 1))

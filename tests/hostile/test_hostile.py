@@ -5,6 +5,10 @@ have been able to do, and one beginning with `held` for what it has tried in vai
 that are right, `points`, `words` of the diagnosis, and `tried`: how many `held` there must be at least, so that an
 attack that never took place is no success. Afterwards the same worker must give full marks to an honest submission.
 
+With `exercise = "10_actions"`, the attack stands at the beginning of a copy of that exercise's `submission` (a folder
+of its solution), and its function `attacked` takes the place of the server's `on_goal`. With `uses_rtps`, the functions
+of `cases/rtps.py` come before the attack. `most_points` takes the place of `points` where an attack spoils its own run.
+
 A table `[C]` or `[D]` in `expected.toml` replaces those keys at that level. `documented` in it quotes the row of the
 table in `docs/instructors.md` that says what the level does not hold, and `escapes` has words of the lines with ESCAPED
 that this excuses. At D, which stops no hostile code, neither is needed.
@@ -54,10 +58,15 @@ def test_an_attack_comes_to_nothing(case, worker, solution, tell, request):
     want = tomllib.loads((CASES / case / "expected.toml").read_text())
     want |= want.get(worker.level, {})
     attack = (CASES / case / "attack.py").read_text()
+    if want.get("uses_rtps"):
+        attack = (CASES / "rtps.py").read_text() + attack
+    files = {"teleop_node.py": f"import attack\n{solution}", "attack.py": attack}
+    if "exercise" in want:
+        files = patrol_with(attack, ROOT / "solutions" / want["exercise"], want["submission"])
     if worker.level == "D":  # no other attack is to meet what this one does to its grader
         request.addfinalizer(worker.close)
     try:
-        told = worker.grade({"teleop_node.py": f"import attack\n{solution}", "attack.py": attack})
+        told = worker.grade(files, want.get("exercise", "03_teleop"))
         faults = list(faults_of(told, want, worker.level))
     except WorkerGoneError:
         if worker.level != "D":
@@ -78,6 +87,17 @@ def test_an_attack_comes_to_nothing(case, worker, solution, tell, request):
     assert (honest["network"], honest["mounts"]) == (told["network"], told["mounts"])
 
 
+def patrol_with(attack, solved, variant):
+    """The files of a variant of a solved exercise with an action server, which attacks."""
+    files = {
+        str(p.relative_to(solved)): p.read_text() for p in (solved / "patrol_interfaces").rglob("*") if p.is_file()
+    }
+    server, start = (solved / variant / "patrol_server.py").read_text(), 'if __name__ == "__main__":'
+    assert start in server
+    taken = f"PatrolServer.on_goal = attacked(PatrolServer.on_goal)\n\n{start}"
+    return files | {"patrol_server.py": f"{attack}\n{server.replace(start, taken)}"}
+
+
 def faults_of(told, want, level):
     """Sentences on what an attack has achieved. Raises AssertionError if it did not take place."""
     report, log = told["report"], told["log"]
@@ -86,7 +106,8 @@ def faults_of(told, want, level):
     ended = report["outcome"] not in want["outcomes"]
     assert held + len(escaped) >= want.get("tried", 0) or (level == "D" and ended), f"it did not take place: {log}"
     yield from escaped
-    if ended or report["score"] != want["points"]:
+    score, most = report["score"], want.get("most_points")
+    if ended or (score != want["points"] if most is None else score > most):
         yield f"{report['outcome']}, {report['score']} points: {report['diagnosis']} {log[-20:]}"
     yield from (
         f"no {word!r} in: {report['diagnosis']}" for word in want.get("words", []) if word not in report["diagnosis"]

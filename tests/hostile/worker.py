@@ -1,7 +1,7 @@
 """Grades one submission after the other in one process, as a worker of a whole class does.
 
-Started as a program with the level of the sandbox. Reads the folder of a submission and one for recordings on each line
-of its input, answers each with a line of JSON, and ends with its input.
+Started as a program with the level of the sandbox. Reads the folder of a submission, one for recordings and the name of
+the exercise on each line of its input, answers each with a line of JSON, and ends with its input.
 """
 
 import json
@@ -20,12 +20,10 @@ from gz_course.grader.grade import grade  # noqa: E402
 from gz_course.grader.record.reading import Recording  # noqa: E402
 from gz_course.grader.run.sandbox.resource_monitor import descendants  # noqa: E402
 
-EXERCISE = find_exercise("03_teleop")
 
-
-def graded(submission, out):
+def graded(submission, out, exercise):
     began = time.monotonic()
-    report = grade(EXERCISE, Path(submission), Path(out), sandbox=LEVEL)
+    report = grade(find_exercise(exercise), Path(submission), Path(out), sandbox=LEVEL)
     seconds = time.monotonic() - began
     recording = Recording(report.recording)
     return {
@@ -40,5 +38,4 @@ def graded(submission, out):
 
 
 for line in sys.stdin:
-    submission, out = json.loads(line)
-    print("\n" + json.dumps(graded(submission, out)), flush=True)
+    print("\n" + json.dumps(graded(*json.loads(line))), flush=True)

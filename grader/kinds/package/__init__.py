@@ -1,11 +1,11 @@
 """`kind = "package"`: the submission is a node with its own package of interfaces (`.msg`, `.srv`, `.action`).
 
 `file` is the node, `files` are those of the package, such as `patrol_interfaces/package.xml`. The package is built in
-the sandbox, never in the grader's process. The exercise's own node, `given_node.py`, runs beside the student's in the
-same sandbox and imports the student's interfaces. It publishes on the topics of `observe` what it has got, and prints
-`ready` once its publishers exist. It is complete before anything of the submission runs, and nobody else may publish
-on these topics. The `parameters` of a trial are two tables: `server` has parameters of the student's node, `client` is
-the first argument of `given_node.py`, as JSON.
+the sandbox, never in the grader's process. The exercise's own node, `given_node.py`, runs beside the student's in a
+sandbox of its own, where the same package is built for it; the two have nothing in common but ROS. It takes its orders
+and reports what it has got as `agent/course_agent/exercise_node.py` says, and the reports are facts of the recording
+(`REPORTS`). It is complete before anything of the submission runs. The `parameters` of a trial are two tables: `server`
+has parameters of the student's node, `client` are the orders.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.kinds.given_node import EXERCISE_NODE, exercise_node
+from gz_course.grader.kinds.given_node import APART, exercise_node
 from gz_course.grader.kinds.kind import Kind, RunPlan
 from gz_course.grader.kinds.node import fault
 from gz_course.grader.kinds.node import plan as node_plan
+from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
     from gz_course.grader.exercise import Exercise
@@ -28,21 +29,18 @@ if TYPE_CHECKING:
     from gz_course.grader.score.diagnosis import Diagnosis
     from gz_course.grader.submission import Submission
 
-APART = ".exercise"  # folder of the exercise's node: no file of a submission has such a name
-
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the student's node beside the exercise's bridge and the exercise's own node."""
     found = node_plan(exercise, submission)
     given = {f"{APART}/{name}": content for name, content in exercise_node(exercise).items()}
-    facts = found.facts | {"given_topics": sorted(exercise.observe)}
-    return RunPlan(found.program, found.files | given, found.entries, facts)
+    packages = {name: content for name, content in found.files.items() if "/" in name}
+    return RunPlan(found.program, found.files, found.entries, found.facts, beside=packages | given)
 
 
 def command(program: Path, trial: Trial) -> list[str]:
-    """Build the packages, then start both nodes, with the parameters of the trial."""
-    given = {side: dict(trial.parameters.get(side, {})) for side in ("server", "client")}
-    words = [str(program), str(program.parent / APART / EXERCISE_NODE), json.dumps(given)]
+    """Build the packages, then start the student's node with its parameters."""
+    words = [str(program), json.dumps(dict(trial.parameters.get("server", {})))]
     return [sys.executable, "-P", "-m", "course_agent.run_package", *words]
 
 
@@ -68,10 +66,9 @@ def diagnosis() -> Diagnosis:
     from gz_course.grader.score.lost_numbers import lost_number
 
     return looks.Diagnosis(
-        outcome,
+        looks.outcome_of,
         (
             looks.tampered,
-            forged,
             looks.cannot_run,
             looks.broke_a_limit,
             build_fault,
@@ -83,31 +80,16 @@ def diagnosis() -> Diagnosis:
             looks.out_of_time,
             misdirected,
             looks.unstable,
+            nobody_asks,
         ),
         (looks.slips, survived, looks.whole_number_fault, lost_number),
     )
-
-
-def outcome(recording: Recording) -> str:
-    """Return `tamper` if somebody has published for the exercise's node, else the class of a node's run."""
-    from gz_course.grader.score.diagnosis import outcome_of
-
-    return "tamper" if forged(recording, recording.facts()) else outcome_of(recording)
-
-
-def forged(recording: Recording, facts: dict[str, Any]) -> str:
-    """Name a topic of the exercise's node on which somebody else has published as well."""
-    for topic in facts.get("forged", []):
-        return f"Your node publishes on {topic}, which belongs to the exercise's own node: nobody else may publish."
-    return ""
 
 
 def misdirected(recording: Recording, facts: dict[str, Any]) -> str:
     """Name the topic to which the student's node publishes in vain, or from which it hears nothing."""
     from gz_course.grader.score.diagnosis import publishers, subscriptions
 
-    given = facts.get("given_topics", [])  # of the exercise's own node
-    listened = {topic: kind for topic, kind in facts.get("listened", {}).items() if topic not in given}
     offered = facts.get("offered", {}).items() - {("/clock", "rosgraph_msgs/msg/Clock")}
     ends = facts.get("endpoints", [])
     kept = facts.get("kept", [])
@@ -116,8 +98,21 @@ def misdirected(recording: Recording, facts: dict[str, Any]) -> str:
         for e in ends
         if e["kind"] == "subscription" and (e.get("durability") != "TRANSIENT_LOCAL" or e["topic"] in kept)
     )
-    said = publishers(recording, facts | {"listened": listened}) if given else ""
-    return said or ("" if hears or not given or not offered else subscriptions(recording, facts))
+    return publishers(recording, facts) or ("" if hears or not offered else subscriptions(recording, facts))
+
+
+def nobody_asks(recording: Recording, facts: dict[str, Any]) -> str:
+    """Return that the exercise's own node ended before the run did, and its last words."""
+    from gz_course.grader.record.reading import PRINTED
+
+    code = facts.get("exercise_node_ended")
+    if code is None:
+        return ""
+    last = next((line.text for line in reversed(recording.lines(PRINTED)) if line.text.strip()), "")
+    return (
+        f"The exercise's own node ended (exit code {code}){f': {shown(last.strip(), 200)}' if last else ''}. From then "
+        "on nobody asked your node for anything."
+    )
 
 
 def build_fault(recording: Recording, facts: dict[str, Any]) -> str:

@@ -1,10 +1,10 @@
-"""The run of a student's node beside the exercise's own, both in one sandbox."""
+"""The run of a student's node beside the exercise's own."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from gz_course.grader.run.grader_endpoints import message_class
+from gz_course.grader.record.reading import PRINTED, REPORTS
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import RealTime
 from gz_course.grader.run.run_loop import RunLoop
@@ -13,12 +13,7 @@ START_UP = 10.0  # [s] more than a single node gets
 
 
 class PackageRunLoop(RunLoop):
-    """A run in which the exercise's own node asks the student's, and publishes on `observe` what it got."""
-
-    def __init__(self, *given: Any, **options: Any) -> None:
-        super().__init__(*given, **options)
-        for topic, kind in self._exercise.observe.items():
-            self._ros.discovery.watch(topic, message_class(kind))
+    """A run in which the exercise's own node, in a sandbox of its own, asks the student's and reports what it got."""
 
     def _paced(self, pace: str) -> RealTime:
         if pace == "lockstep":
@@ -30,7 +25,18 @@ class PackageRunLoop(RunLoop):
         """More than for one node: two come up."""
         return super()._time_limit + START_UP
 
+    def _collect(self) -> None:
+        super()._collect()
+        beside = self._processes.beside
+        if beside is None:
+            return
+        for entity, texts in ((REPORTS, beside.reports), (PRINTED, beside.lines)):
+            for text in texts:
+                self._recorder.text(entity, text)
+            texts.clear()
+
     def _last_look(self) -> dict[str, Any]:
-        """Return the topics of the exercise's node on which others have published, too."""
-        counted = self._ros.discovery.publishers_counted
-        return {"forged": sorted(topic for topic in self._exercise.observe if counted(topic) > 1)}
+        """Return how the exercise's own node has ended, if it has."""
+        beside = self._processes.beside
+        code = beside.exit_code if beside is not None else None
+        return {} if code is None else {"exercise_node_ended": code}

@@ -15,13 +15,15 @@ import socket
 import subprocess
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import psutil
 
 from gz_course.grader.run.agent.course_agent import channel, executor_monitor
+from gz_course.grader.run.agent.course_agent.run_package import GO
 from gz_course.grader.run.fair_clock import FairClock, Patience
+from gz_course.grader.run.processes.door import AGENT, MOST_PARTICIPANTS, SOCKET, listener
+from gz_course.grader.run.processes.exercise_process import NUMBER, ExerciseProcess
 from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.peer import BoxProcesses, Peer
 from gz_course.grader.run.processes.process_tree import ProcessTree
@@ -36,19 +38,17 @@ MOST_LINES = 20_000  # kept per run
 LAST_BYTES = 64 << 10
 MOST_READ = 1 << 20  # [bytes] read from a pipe in one call, so that an endless writer does not stop the grader
 LOOK_AGAIN = 0.1  # [s] between two looks at the clock while the end is awaited
-SOCKET = "participants"  # file name
-MOST_PARTICIPANTS = 100  # processes that are followed
 SHOWN_FOLDER = b"/submission"  # name of the submission's folder in its log
 MOST_IN_VAIN = 30  # processes that are waited for and never take part
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
-AGENT = Path(__file__).parents[1] / "agent"  # runs in the submission's processes; has the same path in the sandbox
 
 
 class SubmissionProcesses:
     """One running submission: a process and everything it starts.
 
     `exit_code` is that of the first process, None while it runs. `participants` are the processes that have said hello,
-    the first process first. `asked(participant, message)` gets their requests. `clock` is theirs and the grader's;
+    the first process first; the exercise's own node (`beside`), if there is one, takes part among them.
+    `asked(participant, message)` gets their requests. `clock` is that of all of them and of the grader;
     `clock_but_mine` goes on while only the thread that has started them waits for a processor.
     """
 
@@ -60,6 +60,7 @@ class SubmissionProcesses:
         environment: Mapping[str, str] | None = None,
         asked: Callable[[Participant, dict[str, Any]], None] | None = None,
         shown: str = "",
+        beside: ExerciseProcess | None = None,
     ) -> None:
         """Start a command in a sandbox.
 
@@ -68,18 +69,20 @@ class SubmissionProcesses:
         `/submission` in the log.
         """
         outside, inside = sandbox.socket_folder
-        self._listener = _listener(outside)
+        self._listener = listener(outside)
         variables = {
             channel.SOCKET: str(inside / SOCKET),
             executor_monitor.TOPICS: json.dumps(topics),
             "PYTHONPATH": str(AGENT),
             **(environment or {}),
+            **({GO: str(beside.go)} if beside is not None else {}),
         }
+        self.beside = beside
         self.asked = asked or _unasked
         self._children_before = _children()
         self._apart = frozenset(each.pid for each in self._children_before)
         self.folder = shown
-        self._process = sandbox.start(list(command), variables)
+        self._process = sandbox.start(list(command), variables, () if beside is None else (beside.go,))
         self._selector = selectors.DefaultSelector()
         self._partial: dict[int, bytes] = {}
         self._pipes = [self._process.stdout, self._process.stderr]
@@ -87,12 +90,14 @@ class SubmissionProcesses:
             os.set_blocking(pipe.fileno(), False)
             self._partial[pipe.fileno()] = b""
             self._selector.register(pipe, selectors.EVENT_READ)
-        self._selector.register(self._listener, selectors.EVENT_READ)
+        for each in (self._listener, *(() if beside is None else (beside.door, beside.link))):
+            self._selector.register(each, selectors.EVENT_READ)
         self.participants: list[Participant] = []
+        self._come = 0  # participants of the submission
         self._box = BoxProcesses(self._process.pid, self._process.walled, self._apart)
-        self.clock = FairClock(lambda: [os.getpid(), *self._members()])
+        self.clock = FairClock(self._everybody)
         # The thread that waits for them looks at them again and again, and each time it waits for a processor.
-        self.clock_but_mine = FairClock(lambda: [os.getpid(), *self._members()], threading.get_native_id())
+        self.clock_but_mine = FairClock(self._everybody, threading.get_native_id())
         self._tree = ProcessTree(self._box.age, self.clock.now, self.clock.delayed)
         self._lines: list[str] = []
         self._line_count = 0
@@ -130,7 +135,7 @@ class SubmissionProcesses:
         for pipe in self._pipes:
             self._drain(pipe.fileno())
         self._read_participants()
-        if (self.participants and self.participants[0].gone) or self._process.poll() is not None:
+        if any(each.number == 0 and each.gone for each in self.participants) or self._process.poll() is not None:
             self._reap()
         return bool(ready)
 
@@ -152,7 +157,7 @@ class SubmissionProcesses:
     @property
     def starting(self) -> bool:
         """Whether a process is about to become one that is followed. After `MOST_IN_VAIN` that never did, none is."""
-        return not self.participants or self._starts()
+        return self._come == 0 or self._starts()
 
     def _starts(self, without: Participant | None = None) -> bool:
         """Whether a process is about to be followed, other than one."""
@@ -208,19 +213,28 @@ class SubmissionProcesses:
         self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_participants(self) -> None:
-        while True:
-            try:
-                accepted, _ = self._listener.accept()
-            except OSError:
-                break
-            if len(self.participants) >= MOST_PARTICIPANTS or not self._is_new(Peer.of(accepted)):
+        while (accepted := _accepted(self._listener)) is not None:
+            if self._come >= MOST_PARTICIPANTS or not self._is_new(Peer.of(accepted)):
                 accepted.close()
                 continue
-            self.participants.append(Participant(accepted, len(self.participants), self._hear))
-            self._selector.register(accepted, selectors.EVENT_READ)
+            self._join(Participant(accepted, self._come, self._hear))
+            self._come += 1
+        while self.beside is not None and (accepted := _accepted(self.beside.door)) is not None:
+            if any(p.number == NUMBER for p in self.participants) or not self.beside.holds(Peer.of(accepted)):
+                accepted.close()
+            else:
+                self._join(Participant(accepted, NUMBER, self._answer))
         for each in self.participants:
             if not each.gone:
                 self._read(each)
+        if self.beside is not None:  # only now: what it has reported before its threads came to rest is there
+            self.beside.read()
+            if self.beside.gone and self.beside.link in self._selector.get_map():
+                self._selector.unregister(self.beside.link)
+
+    def _join(self, participant: Participant) -> None:
+        self.participants.append(participant)
+        self._selector.register(participant.channel, selectors.EVENT_READ)
 
     def _is_new(self, peer: Peer) -> bool:
         """Whether a process of the box has connected, and has no connection yet."""
@@ -235,10 +249,16 @@ class SubmissionProcesses:
         each.read()
         if each.gone:
             self._selector.unregister(each.channel)
-            self._tree.leave(each.pid)
+            if each.number != NUMBER:
+                self._tree.leave(each.pid)
 
     def _hear(self, who: Participant, message: dict[str, Any]) -> None:
         self._tree.hear(message)
+        self._answer(who, message)
+        self.asked(who, message)
+
+    def _answer(self, who: Participant, message: dict[str, Any]) -> None:
+        """Answer what any process may ask."""
         if "clock" in message:
             who.tell({"now": self.now_ns})
         if "time" in message:
@@ -246,7 +266,6 @@ class SubmissionProcesses:
         if "looking" in message:
             others_work = any(p.works and not p.looking for p in self.participants if p is not who)
             who.tell({"answer": {"others": others_work or self._starts(who), "now": self.clock.now()}})
-        self.asked(who, message)
 
     def _reap(self) -> None:
         """Take the exit code of a process that has exited; end one that only closed its end of the socket."""
@@ -289,6 +308,8 @@ class SubmissionProcesses:
                     break
         self._process.kill()
         self.exit_code = self._process.wait()
+        if self.beside is not None:
+            self.beside.stop()
         self._sweep()
 
     def _ends_within(self, seconds: float) -> bool:
@@ -303,6 +324,9 @@ class SubmissionProcesses:
     def cpu_seconds(self) -> float:
         """Return the processor time [s] of all running processes, and of the ended ones they have waited for."""
         return sum(cpu_seconds(each, with_ended=True) for each in self._members())
+
+    def _everybody(self) -> list[int]:
+        return [os.getpid(), *self._members(), *(self.beside.members() if self.beside is not None else ())]
 
     def _members(self) -> list[int]:
         return descendants(os.getpid(), self._apart)
@@ -326,19 +350,12 @@ class SubmissionProcesses:
             pipe.close()
 
 
-def _listener(folder: Path) -> socket.socket:
-    """Return a listening socket in a folder, which may have a long path."""
-    listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-    (folder / SOCKET).unlink(missing_ok=True)
-    descriptor = os.open(folder, os.O_PATH | os.O_DIRECTORY)
+def _accepted(door: socket.socket) -> socket.socket | None:
+    """Return the next connection that was made, or None."""
     try:
-        listener.bind(f"/proc/self/fd/{descriptor}/{SOCKET}")
-    finally:
-        os.close(descriptor)
-    (folder / SOCKET).chmod(0o666)  # the sandbox may have a user of its own
-    listener.listen(MOST_PARTICIPANTS)
-    listener.setblocking(False)
-    return listener
+        return door.accept()[0]
+    except OSError:
+        return None
 
 
 def _has_come_in_vain(participant: Participant) -> bool:

@@ -35,6 +35,7 @@ from gz_course.grader.run.sandbox.view import HOME, SOCKETS, SUBMISSION, TMP_FIL
 
 PR_SET_CHILD_SUBREAPER = 36
 FIRST_USER = 61_000  # + the ROS domain: unused by others, and different for simultaneous runs
+BESIDE = 200  # between the user of a submission's sandbox and that of the one beside it
 
 
 def enter_early(level: str) -> None:
@@ -53,17 +54,21 @@ class Sandbox:
 
     `level` is `A` to `D`, or `auto` for the best that works in this process. `close()` removes everything. Raises
     InfrastructureError if the level asked for is not available.
+
+    A sandbox `beside` another one has its level and its network, and nothing else in common with it: files, processes,
+    shared memory, limits and, where there are users, the user are its own. Only what the exercise brings runs there.
     """
 
-    def __init__(self, domain: int, level: str = AUTO) -> None:
-        self.level = choose() if level == AUTO else level
+    def __init__(self, domain: int, level: str = AUTO, beside: Sandbox | None = None) -> None:
+        self._beside = beside is not None
+        self.level: str = beside.level if beside is not None else choose() if level == AUTO else level
         self._module = level_module(self.level)
         if lack := self._module.missing():
             raise InfrastructureError(f"no sandbox of level {self.level} here: {lack}")
         self.domain = domain
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # makes orphaned daemons children of this process
         self._network: PrivateNetwork | None = None
-        if self._module.PRIVATE_NETWORK:
+        if self._module.PRIVATE_NETWORK and beside is None:  # else this process is in it already
             try:
                 self._network = PrivateNetwork()
             except NetworkError as error:
@@ -136,7 +141,7 @@ class Sandbox:
             with contextlib.suppress(OSError):  # it has ended already; its end is reported by `wait`
                 ours.send(spec.for_init().as_bytes())
         self._boxes.append(boxed)
-        if self._module.NAMESPACES:  # the processes in the sandbox are below its outermost one
+        if self._module.NAMESPACES or self._beside:  # the processes in the sandbox are below its outermost one
             boxed.monitor = ResourceMonitor(boxed.pid, boxed.kill)
         else:
             # Its log lies in its home, too, and may be as long as any file.
@@ -147,7 +152,7 @@ class Sandbox:
     def _spec(self, command: list[str], environment: dict[str, str], descriptors: tuple[int, ...]) -> SandboxSpec:
         walls, landlock = self._module.NAMESPACES, self._module.LANDLOCK
         own_user = bool(walls) and os.geteuid() == 0
-        user = FIRST_USER + self.domain if own_user else None
+        user = FIRST_USER + BESIDE * self._beside + self.domain if own_user else None
         places = (
             tuple(view(self.folder / "submission", self.folder / "door", self._etc(user))) if walls or landlock else ()
         )

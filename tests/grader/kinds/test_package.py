@@ -7,7 +7,8 @@ import pytest
 
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.exercise.trial import Trial
-from gz_course.grader.kinds.package import APART, command, misdirected, plan
+from gz_course.grader.kinds.given_node import APART
+from gz_course.grader.kinds.package import command, misdirected, plan
 from gz_course.grader.run.agent.course_agent.run_package import build_all
 from gz_course.grader.submission.intake import take_in
 
@@ -21,20 +22,21 @@ def solved(root, tmp_path):
     return shutil.copytree(root / "solutions" / "10_actions", tmp_path / "handed_in", ignore=parts)
 
 
-def test_the_exercises_node_lies_where_no_file_of_a_submission_can(root, solved):
+def test_the_exercises_node_lies_in_a_sandbox_of_its_own_where_no_file_of_a_submission_can(root, solved):
     exercise = find_exercise("10_actions", root)
     (solved / "given_node.py").write_text("raise SystemExit")
     found = plan(exercise, take_in(exercise, solved))
     assert found.program == "patrol_server.py"
-    assert found.files[f"{APART}/given_node.py"] == (exercise.folder / "given_node.py").read_bytes()
-    assert f"{PACKAGE}/action/Patrol.action" in found.files
+    assert found.beside[f"{APART}/given_node.py"] == (exercise.folder / "given_node.py").read_bytes()
+    assert not any(name.startswith(APART) for name in found.files)
+    assert f"{PACKAGE}/action/Patrol.action" in found.files.keys() & found.beside.keys()
+    assert "patrol_server.py" not in found.beside
 
 
-def test_the_parameters_of_a_trial_go_to_both_nodes(tmp_path):
+def test_only_its_own_parameters_stand_in_the_command_line_of_the_students_node(tmp_path):
     given = {"server": {"max_speed": 0.3}, "client": {"too_fast": 0.4}}
-    *_, program, client, words = command(tmp_path / "patrol_server.py", Trial("some", 0, parameters=given))
-    assert (program, client) == (str(tmp_path / "patrol_server.py"), str(tmp_path / APART / "given_node.py"))
-    assert json.loads(words) == given
+    *_, program, words = command(tmp_path / "patrol_server.py", Trial("some", 0, parameters=given))
+    assert (program, json.loads(words)) == (str(tmp_path / "patrol_server.py"), given["server"])
 
 
 def test_a_fault_in_the_package_is_one_sentence_with_file_and_line(solved, tmp_path):
@@ -61,7 +63,7 @@ def test_a_fault_in_the_package_is_one_sentence_with_file_and_line(solved, tmp_p
 def test_a_subscription_that_gets_nothing_by_its_durability_is_named():
     end = {"kind": "subscription", "node": "/patrol_server", "topic": "/odom", "type": "nav_msgs/msg/Odometry"}
     end |= {"reliability": "RELIABLE", "durability": "VOLATILE"}
-    facts = {"given_topics": ["/dispatcher"], "offered": {"/odom": end["type"]}, "endpoints": [end]}
+    facts = {"offered": {"/odom": end["type"]}, "endpoints": [end]}
     assert misdirected(None, facts) == ""
     end["durability"] = "TRANSIENT_LOCAL"
     assert "asks for the durability TRANSIENT_LOCAL" in misdirected(None, facts)

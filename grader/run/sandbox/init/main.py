@@ -36,7 +36,7 @@ def main() -> None:
         if order["walls"] == "own":
             namespaces.build(order["root"], order["host"], order["places"])
         elif order["walls"]:
-            namespaces.limit_tmpfs(order["places"])
+            namespaces.restrict_mounts(order["places"])
         if order["walls"]:
             _supervise(order, channel)
         _become(order)

@@ -71,6 +71,7 @@ def _put(root: str, place: dict[str, Any]) -> None:
         kernel.mount(source, target, flags=kernel.MS_BIND)
     elif kind == "proc":
         kernel.mount("proc", target, "proc", HERE | kernel.MS_NOEXEC)
+        hide_processes(target)
     elif kind == "mask":
         kernel.mount("mask", target, "tmpfs", HERE, "size=1m,nr_inodes=100,mode=755")
     elif kind == "tmpfs":
@@ -82,8 +83,17 @@ def tmpfs_limits(place: dict[str, Any]) -> str:
     return f"size={place['size']},nr_inodes={place['files']},mode=1777"
 
 
-def limit_tmpfs(places: list[dict[str, Any]]) -> None:
-    """Limit the number of files of each tmpfs that bubblewrap has mounted."""
+def hide_processes(proc: str) -> None:
+    """Let /proc show no process that its reader may not trace, such as process 1, where Linux allows that."""
+    try:  # noqa: SIM105 - contextlib takes its time
+        kernel.mount("proc", proc, "proc", kernel.MS_REMOUNT | HERE | kernel.MS_NOEXEC, "hidepid=2")
+    except OSError:
+        pass  # nothing that matters can be read there anyway
+
+
+def restrict_mounts(places: list[dict[str, Any]]) -> None:
+    """Limit the number of files of each tmpfs that bubblewrap has mounted, and what /proc shows."""
+    hide_processes("/proc")
     for place in places:
         if place["kind"] == "tmpfs":
             kernel.mount("tmpfs", place["path"], "tmpfs", kernel.MS_REMOUNT | HERE, tmpfs_limits(place))

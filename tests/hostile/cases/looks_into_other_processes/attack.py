@@ -4,7 +4,7 @@ from pathlib import Path
 
 libc = ctypes.CDLL(None, use_errno=True)
 others = [int(p.name) for p in Path("/proc").iterdir() if p.name.isdigit() and int(p.name) != os.getpid()]
-print("held" if others == [1] else "ESCAPED", "processes", others, flush=True)
+print("held" if others in ([], [1]) else "ESCAPED", "processes", others, flush=True)
 for pid in {1, os.getppid(), *others}:
     for name in ("environ", "mem", "maps", "fd", "cwd/", "root/", "exe"):
         path = f"/proc/{pid}/{name}"
