@@ -14,8 +14,8 @@ from gz_course.grader.learning_platforms.matching import Match, match
 from gz_course.grader.learning_platforms.roster import Roster, read_roster
 from gz_course.grader.learning_platforms.submission_times import Submitted, submission_times
 from gz_course.grader.process.whole_file import write_whole
-from gz_course.grader.whole_class.found import CANVAS, CANVAS_LATE
 from gz_course.grader.whole_class.gradebook import read_gradebook
+from gz_course.grader.whole_class.platforms import CANVAS, is_late
 
 WORKSHEET_TIME = "%A, %d %B %Y, %I:%M %p"  # of Moodle in English: Thursday, 12 November 2026, 2:33 PM
 
@@ -52,14 +52,15 @@ def export(
     matches = match(rows, roster)
 
     def submitted(each: Match) -> Submitted | None:
-        return _moodle_time(roster, each) or times.get(each.member.row.submission)
+        row = each.member.row
+        return _moodle_time(roster, each) or times.get((row.student, row.submission))
 
     def late(each: Match) -> str:
-        when = submitted(each)
+        when, row = submitted(each), each.member.row
         if due is None:
             return ""
-        if when is None and CANVAS.fullmatch(each.member.row.submission):
-            return "LATE, says Canvas" if CANVAS_LATE.fullmatch(each.member.row.submission) else ""
+        if when is None and row.platform == CANVAS:
+            return "LATE, says Canvas" if is_late(row.platform, row.submission) else ""
         return lateness(due, when.time if when else None)
 
     def facts(each: Match) -> list[str]:

@@ -22,8 +22,8 @@ from gz_course.grader.learning_platforms.roster import (
     Roster,
 )
 from gz_course.grader.printable import shown
-from gz_course.grader.whole_class.found import CANVAS, MOODLE
 from gz_course.grader.whole_class.gradebook import Row
+from gz_course.grader.whole_class.platforms import CANVAS, MOODLE
 
 NUMBERED = re.compile(r" \[\d+\]$")  # how a gradebook tells students of one name apart
 LOCAL, NAME, WORDS, LETTERS = "email before the @", "name", "words of the name", "letters of the name"
@@ -123,12 +123,14 @@ def _of_person(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def _of_member(member: Member) -> Iterator[tuple[str, str]]:
-    if MOODLE.fullmatch(member.row.submission):
+    if member.row.platform == MOODLE:
         yield PARTICIPANT_ID, member.id
-    elif CANVAS.fullmatch(member.row.submission) and member.id:
+    elif member.row.platform == CANVAS:
         yield CANVAS_ID, member.id
-    else:
+    elif member.id:
         yield ID, fold(member.id)
+        yield LOCAL, fold(member.id)
+    else:  # nothing but a name, which may be an id, too
         yield ID, fold(member.name)
         yield LOCAL, fold(member.name)
     yield NAME, fold(member.name)

@@ -20,7 +20,8 @@ from typing import NamedTuple
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.whole_class.found import CANVAS, Found, find_submissions
+from gz_course.grader.whole_class.found import Found, find_submissions
+from gz_course.grader.whole_class.platforms import CANVAS
 
 GIT = 10.0  # [s] for one call of git
 LARGEST_REF, LARGEST_REFS = 4096, 4 << 20  # [bytes]
@@ -35,19 +36,19 @@ class Submitted(NamedTuple):
     said_by: str
 
 
-def submission_times(path: Path, exercise: Exercise) -> dict[str, Submitted]:
-    """Return the time of every submission that has one, by its name in the gradebook (`submission`).
+def submission_times(path: Path, exercise: Exercise) -> dict[tuple[str, str], Submitted]:
+    """Return the time of every submission that has one, by what the gradebook calls it (`student`, `submission`).
 
     `path` is the folder or zip that was graded. Raises UsageError if it cannot be read.
     """
-    found: dict[str, Submitted] = {}
+    found: dict[tuple[str, str], Submitted] = {}
     with ExitStack() as stack:
         submissions, _ = find_submissions(path, exercise, stack)
         folders = _folders(path) if path.is_dir() else {}
         ours = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="course-git-")))
         for each in submissions:
             if submitted := _submitted(each, folders.get(each.entry), ours):
-                found[each.source] = submitted
+                found[each.student, each.source] = submitted
     return found
 
 
@@ -57,7 +58,7 @@ def _submitted(found: Found, folder: Path | None, ours: Path) -> Submitted | Non
     if folder is not None and (folder / ".git").exists():  # its files are as old as the clone
         time = commit_time(folder / ".git", ours)
         return Submitted(time, "commit") if time else None
-    if CANVAS.fullmatch(found.entry):  # Canvas gives files the time at which it packs them
+    if found.platform == CANVAS:  # Canvas gives files the time at which it packs them
         return None
     try:
         times = [member.modified for member in found.files().values() if member.modified is not None]

@@ -212,7 +212,7 @@ class ClassRun:
             what = [outcome, shown(str(error))]
         except Exception as error:  # a submission that cannot be read must not end the run
             return result | {"diagnosis": shown(f"not read: {type(error).__name__}: {error}")}, None, True
-        identity = [found.student, found.id, found.source, *what, *self._same]
+        identity = [found.student, found.id, found.source, found.platform, *what, *self._same]
         key = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
         done = journal.current(key)
         if done is not None and self._has_files(done):
@@ -244,6 +244,7 @@ class ClassRun:
             "sha256": "",
             "truth_sha256": "",
             "folder": folder_name(found.student),
+            "platform": found.platform,
         }
 
     def _unread(self, result: Result) -> bytes:

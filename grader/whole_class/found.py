@@ -1,29 +1,25 @@
 """The submissions of a class in a folder or a zip as learning platforms export them, and their students.
 
-Each student has one folder, file or archive; the names that Canvas, Moodle, Blackboard and Gradescope give are
-understood. Files of one student side by side belong together. Nothing is read before `Found.read` is called, so that
-only one submission at a time is in memory. Used by `grade_all.py`.
+Each student has one folder, file or archive; `platforms.py` says whose each is. Entries that a platform names as one
+student's belong together. No entry replaces another: two of which only one can count are both refused, by name. Nothing
+is read before `Found.read` is called, so that only one submission at a time is in memory. Used by `grade_all.py`.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from functools import partial
 from pathlib import Path, PurePosixPath
-from typing import Any, NamedTuple
-
-import yaml
 
 from gz_course.grader.errors import RefusedError, UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.submission.archive import (
-    LONGEST_PART,
     Member,
     Tree,
     damaged,
@@ -33,17 +29,9 @@ from gz_course.grader.submission.archive import (
     zip_members,
 )
 from gz_course.grader.submission.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
+from gz_course.grader.whole_class.platforms import GRADESCOPE, METADATA, Entry, Export
 from gz_course.grader.whole_class.unique_names import unique_names
 
-METADATA = "submission_metadata.yml"  # written by Gradescope beside the folders of an export
-LARGEST_METADATA = 4 << 20  # [bytes]
-
-# A platform's name for what a student handed in. `file` is the student's own name for it.
-MOODLE = re.compile(r"(?P<student>.+?)_(?P<id>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)", re.DOTALL)
-CANVAS = re.compile(r"(?P<student>.+?)(?:_LATE)?_(?P<id>\d+)_\d{2,}_(?P<file>.+)", re.DOTALL)
-CANVAS_LATE = re.compile(r".+?_LATE_\d+_\d{2,}_.+", re.DOTALL)
-BLACKBOARD = re.compile(r".+_(?P<student>[^_]+)_attempt_(?P<when>\d{4}(?:-\d\d){5})(?:_(?P<file>.+)|\.txt)", re.DOTALL)
-BLACKBOARD_TIME = "%Y-%m-%d-%H-%M-%S"
 AGAIN = re.compile(r"-\d+(?=\.[^.]*$)")  # Canvas numbers what was handed in again: teleop_node-2.py
 
 
@@ -54,7 +42,7 @@ class Found:
     `read` returns the expected file and everything that belongs to it. It raises UsageError, or RefusedError, if there
     is nothing to grade in it, and UnreadableError if the machine cannot read it. `submitted` is when, as the platform
     says; `files` returns all files without reading them, and raises as `read` does. `entry` is the name that `source`
-    shows, as it is in the folder or zip.
+    shows, as it is in the folder or zip; `platform` is the one that has named it, or empty.
     """
 
     student: str
@@ -64,29 +52,32 @@ class Found:
     submitted: datetime | None = None
     files: Callable[[], Tree] = dict
     entry: str = ""
-
-
-class _Owner(NamedTuple):
-    """The student an entry belongs to, derived from its name; equal for all entries of one student."""
-
-    student: str
-    id: str = ""
+    platform: str = ""
 
 
 @dataclass
 class _Group:
-    """The entries of one owner, and how to read them."""
+    """What belongs to one student: what the first name says, and how to read each entry, by its name."""
 
-    source: str
-    trees: list[Callable[[], Tree]]
-    when: str = ""
-    submitted: datetime | None = None
+    first: Entry
+    parts: dict[str, Callable[[], Tree]]
 
     def files(self) -> Tree:
+        if not self.first.platform and len(self.parts) > 1:
+            raise RefusedError(f"{_both(self.parts)} have one name, so none of them is graded; rename all but one")
         tree: Tree = {}
-        for part in self.trees:
-            tree |= part()
+        origin: dict[str, str] = {}
+        for name, part in self.parts.items():
+            for inside, member in part().items():
+                if inside in tree:
+                    both = _both((origin[inside], name))
+                    raise RefusedError(f"{both} both hold {shown(inside, 120)!r}, so neither is graded; keep one")
+                tree[inside], origin[inside] = member, name
         return tree
+
+
+def _both(names: Iterable[str]) -> str:
+    return " and ".join(map(_label, names))
 
 
 def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[list[Found], list[str]]:
@@ -95,44 +86,49 @@ def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[
     `stack` closes what is read later. Raises UsageError if there are none or `path` cannot be read.
     """
     try:
-        top, folders = _zip_top(path, stack) if path.is_file() else _folder_top(path)
+        top, below, folders = _zip_top(path, stack) if path.is_file() else _folder_top(path)
     except OSError as error:
         raise UsageError(f"{path} cannot be read: {error.strerror or error}") from None
-    top, left_out = _unwrapped(top, folders, exercise), []
-    names, times = _gradescope(top.pop(METADATA, None))
-    groups: dict[_Owner, _Group] = {}
+    top, left_out = _unwrapped(top, below, folders, exercise), []
+    export, top = _export(top)
+    groups: dict[tuple[str, str], _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
     for name, thing in sorted(top.items()):
-        owner, file, when = _owner(name, folder=callable(thing), names=names)
-        if name.startswith(".") and name.strip(".") and not owner.id:  # a hidden folder is nobody's, but is reported
+        entry = export.entry(name, callable(thing))
+        hidden = name.startswith(".") and name.strip(".")  # a hidden folder is nobody's, but is reported
+        other = not callable(thing) and not entry.file.endswith(suffixes) and not is_archive(entry.file)
+        if (hidden or other) and not entry.platform:
             left_out.append(_label(name))
             continue
-        if not callable(thing) and not file.endswith(suffixes) and not is_archive(file) and not owner.id:
-            left_out.append(_label(name))
-            continue
-        tree = thing if callable(thing) else partial(_alone, file, thing)
-        group = groups.get(owner)
-        if group is None or when > group.when:  # a later attempt replaces an earlier one
-            submitted = _blackboard_time(when) if when else times.get(name)
-            groups[owner] = _Group(name, [tree], when, submitted)
-        elif when == group.when:
-            group.trees.append(tree)
+        tree = thing if callable(thing) else partial(_alone, entry.file, thing)
+        group = groups.get((entry.platform, entry.key))
+        if group is None or entry.when > group.first.when:  # a later attempt replaces an earlier one
+            groups[entry.platform, entry.key] = _Group(entry, {name: tree})
+        elif entry.when == group.first.when:
+            group.parts[name] = tree
     if not groups:
         raise UsageError(
             f"there are no submissions in {path}: expected a folder, archive or {suffixes[0]} file for each student"
         )
-    return _named(groups, exercise), left_out
+    return _named(list(groups.values()), exercise), left_out
 
 
-def _named(groups: dict[_Owner, _Group], exercise: Exercise) -> list[Found]:
+def _export(top: Top) -> tuple[Export, Top]:
+    """Return how the names of an export are read, and its entries without a platform's own."""
+    others = {name: thing for name, thing in top.items() if name != METADATA}
+    export = Export({name: callable(thing) for name, thing in others.items()}, top.get(METADATA))
+    return export, others if export.platform == GRADESCOPE else top
+
+
+def _named(groups: list[_Group], exercise: Exercise) -> list[Found]:
     """Give every student a unique, printable name."""
-    names = [_label(owner.student) for owner in groups]
-    labels = unique_names(names, [owner.id for owner in groups])
+    labels = unique_names([_label(group.first.student) for group in groups], [group.first.id for group in groups])
     found = []
-    for label, (owner, group) in zip(labels, groups.items(), strict=True):
-        source = _label(group.source)
+    for label, group in zip(labels, groups, strict=True):
+        first, entry = group.first, next(iter(group.parts))
+        source = _label(entry)
         read = partial(_read, group, exercise, source)
-        found.append(Found(label, owner.id, source, read, group.submitted, group.files, group.source))
+        found.append(Found(label, first.id, source, read, first.submitted, group.files, entry, first.platform))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))
 
 
@@ -156,56 +152,89 @@ def _alone(name: str, member: Member) -> Tree:
 
 
 Top = dict[str, "Callable[[], Tree] | Member"]  # name -> a function that returns a folder's tree, or a file
+Folders = Mapping[str, Callable[[], Tree]]  # name, with `/` between its parts -> the same for folders, also empty ones
+Below = Callable[[], Iterable[tuple[str, "Member | RefusedError"]]]  # returns what is in the only folder at the top
 
 
-def _folder_top(path: Path) -> tuple[Top, list[str]]:
-    """Return the entries at the top of a folder, and the names of the folders in it and in its only folder."""
+def _folder_top(path: Path) -> tuple[Top, Below, Folders]:
+    """Return the entries at the top of a folder, what is in its only folder, and the folders in both."""
     top: Top = {}
     for each in path.iterdir():
         if _is_trace(each.name, folder=each.is_dir()):
             continue
         if each.is_dir():
-            top[each.name] = partial(folder_tree, each)
+            top[each.name] = _folder(each)
         elif (member := folder_member(each)) is not None:
             top[each.name] = member
-    folders = [name for name, thing in top.items() if callable(thing)]
+    folders = {name: thing for name, thing in top.items() if callable(thing)}
+    below: Below = list
     if len(top) == len(folders) == 1:
-        folders += [f"{folders[0]}/{each.name}" for each in (path / folders[0]).iterdir() if each.is_dir()]
-    return top, folders
+        ((only, tree),) = folders.items()
+        if not (path / only).is_symlink():
+            below = partial(_items, tree)
+            folders |= {f"{only}/{each.name}": _folder(each) for each in (path / only).iterdir() if each.is_dir()}
+    return top, below, folders
 
 
-def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, list[str]]:
-    """Return the entries at the top of a zip, and the names of its folders, including empty ones.
+def _items(tree: Callable[[], Tree]) -> Iterable[tuple[str, Member]]:
+    return tree().items()
+
+
+def _folder(path: Path) -> Callable[[], Tree]:
+    """Return what reads a folder; a link to one is refused, because it leads out of the class."""
+    if path.is_symlink():
+        error = RefusedError(f"{_label(path.name)} is a link to a folder, which is not followed; put the folder there")
+        return partial(_refuse, error)
+    return partial(folder_tree, path)
+
+
+def _zip_top(path: Path, stack: ExitStack) -> tuple[Top, Below, Folders]:
+    """Return the entries at the top of a zip, what is in its only folder, and its folders, including empty ones.
 
     A member with an unsafe name is an error of its student, not of the class.
     """
-    top: Top = {}
-    folders: dict[str, Tree] = {}
-    unsafe: dict[str, RefusedError] = {}
+    members: list[tuple[str, Member | RefusedError]] = []
     try:
         stream = stack.enter_context(path.open("rb"))
         empty = [name for raw in zip_folders(stream) if (name := _safe(raw)) and not _is_trace(name, folder=True)]
         for raw, member in zip_members(stream):
-            first, _, rest = raw.replace("\\", "/").removeprefix("./").partition("/")
+            name = raw.replace("\\", "/").removeprefix("./")
+            first, _, rest = name.partition("/")
             if _is_trace(first, folder=bool(rest)):
                 continue
             try:
-                plain_name(raw, _label(first))
+                members.append((plain_name(raw, _label(first)), member))
             except RefusedError as error:
-                unsafe[first[:LONGEST_PART]] = error
-                continue
-            if rest:
-                folders.setdefault(first, {})[plain_name(rest, _label(first))] = member
-            else:
-                top[first] = member
+                members.append((name, error))
     except OSError:
         raise
     except Exception as error:  # as for a student's archive: the exceptions of `zipfile` are not documented
         raise damaged(str(path), error) from None
-    for name in empty:
-        folders.setdefault(name.partition("/")[0], {})
-    top |= {name: partial(dict, tree) for name, tree in folders.items()}
-    return top | {name: partial(_refuse, error) for name, error in unsafe.items()}, empty
+    below = [(rest, member) for name, member in members if (rest := name.partition("/")[2])]
+    return _by_first_part(members, empty), lambda: below, dict.fromkeys(empty, dict)
+
+
+def _by_first_part(members: Iterable[tuple[str, Member | RefusedError]], folders: Iterable[str] = ()) -> Top:
+    """Return the entries at the top of a tree; one that is there twice, or holds a file twice, is refused."""
+    files: dict[str, Member] = {}
+    inner: dict[str, Tree] = {name.partition("/")[0]: {} for name in folders}
+    refused: dict[str, RefusedError] = {}
+    for name, member in members:
+        first, _, rest = name.partition("/")
+        if isinstance(member, RefusedError):
+            refused.setdefault(first, member)
+            continue
+        place, inside = (inner.setdefault(first, {}), rest) if rest else (files, first)
+        if inside in place:
+            refused.setdefault(first, _twice(first, name))
+        place[inside] = member
+    refused = {name: _twice(name, name) for name in files.keys() & inner.keys()} | refused
+    top: Top = files | {name: partial(dict, tree) for name, tree in inner.items()}
+    return top | {name: partial(_refuse, error) for name, error in refused.items()}
+
+
+def _twice(entry: str, name: str) -> RefusedError:
+    return RefusedError(f"{_label(entry)}: {shown(name, 120)!r} is there twice, so neither is graded; keep one")
 
 
 def _safe(raw: str) -> str:
@@ -225,77 +254,28 @@ def _refuse(error: RefusedError) -> Tree:
     raise error
 
 
-def _unwrapped(top: Top, folders: list[str], exercise: Exercise) -> Top:
+def _unwrapped(top: Top, below: Below, folders: Folders, exercise: Exercise) -> Top:
     """Return the entries of the only folder of `top`, if that folder holds a class and not one student's work.
 
-    Empty folders, which only `folders` lists, count as students of that class, too.
+    `below` returns what is in it. Empty folders, which only `folders` lists, count as students of that class, too.
     """
     ((outer, only),) = top.items() if len(top) == 1 else (("", None),)
     if not callable(only):
         return top
     try:
-        tree = only()
+        members = list(below())
     except UsageError:
         return top
-    inner: dict[str, Tree] = {}
-    files: Top = {}
-    for name, member in tree.items():
-        first, _, rest = name.partition("/")
-        if rest:
-            inner.setdefault(first, {})[rest] = member
-        else:
-            files[first] = member
-    holders = [
-        n for n, t in inner.items() if any(PurePosixPath(name).name == exercise.file or is_archive(name) for name in t)
-    ]
-    holders += [name for name in files if is_archive(name) or _owner(name, folder=False, names={})[0].id]
-    if not any(PurePosixPath(name).name == exercise.file for name in tree):
-        holders += [name for name in files if name.endswith(find_kind(exercise.kind).suffixes)]
-    if (len(holders) < 2 and METADATA not in files) or exercise.file in files or "exercises" in inner:
+    inside = {name: thing for name, thing in _by_first_part(members).items() if not is_junk(name)}
+    parts = [(name.partition("/"), read) for name, read in folders.items()]
+    empty = {second: read for (first, _, second), read in parts if first == outer and second and "/" not in second}
+    if exercise.file in inside or any(name.startswith("exercises/") for name, _ in members):
         return top
-    for name in folders:
-        first, _, second = name.partition("/")
-        if first == outer and second and "/" not in second:
-            inner.setdefault(second, {})
-    return files | {name: partial(dict, each) for name, each in inner.items() if not is_junk(name)}
-
-
-def _owner(name: str, *, folder: bool, names: dict[str, _Owner]) -> tuple[_Owner, str, str]:
-    """Return the student of the entry called `name`, the student's own name for it, and when it was handed in."""
-    if name in names:
-        return names[name], name, ""
-    if match := MOODLE.fullmatch(name):
-        return _Owner(match["student"], match["id"]), match["file"] or name, ""
-    if match := BLACKBOARD.fullmatch(name):
-        return _Owner(match["student"], match["student"]), match["file"] or name, match["when"]
-    if not folder and (match := CANVAS.fullmatch(name)):
-        return _Owner(match["student"], match["id"]), match["file"], ""
-    if folder:
-        return _Owner(name), name, ""
-    return _Owner(PurePosixPath(name.removesuffix(".gz")).stem.removesuffix(".tar")), name, ""
-
-
-def _blackboard_time(when: str) -> datetime | None:
-    try:
-        return datetime.strptime(when, BLACKBOARD_TIME)
-    except ValueError:
-        return None
-
-
-def _gradescope(member: object) -> tuple[dict[str, _Owner], dict[str, datetime]]:
-    """Return the owner of each folder, and when it was handed in, from a Gradescope export's metadata."""
-    if not isinstance(member, Member):
-        return {}, {}
-    try:
-        raw: Any = yaml.safe_load(member.read(LARGEST_METADATA))
-        found, times = {}, {}
-        for folder, about in raw.items():
-            people = about[":submitters"]
-            student = " & ".join(str(person.get(":name") or person.get(":email")) for person in people)
-            ids = ";".join(str(person.get(":sid") or person.get(":email") or "") for person in people)
-            found[str(folder)] = _Owner(student, ids)
-            if isinstance(created := about.get(":created_at"), datetime):
-                times[str(folder)] = created if created.tzinfo else created.replace(tzinfo=UTC)
-        return found, times
-    except (yaml.YAMLError, UsageError, TypeError, KeyError, AttributeError, ValueError):
-        return {}, {}
+    suffixes = find_kind(exercise.kind).suffixes
+    names = [PurePosixPath(name) for name, _ in members]
+    wanted = {name.parts[0] for name in names if name.name == exercise.file or is_archive(name.name)}
+    if not any(name.name == exercise.file for name in names):
+        wanted |= {name for name, thing in inside.items() if not callable(thing) and name.endswith(suffixes)}
+    if len(wanted) < 2 and (len(inside) < 2 or not _export(inside)[0].platform):
+        return top
+    return {name: read for name, read in empty.items() if not is_junk(name)} | inside

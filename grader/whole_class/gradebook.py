@@ -38,6 +38,7 @@ class Row:
     max_score: float
     outcome: str
     diagnosis: str
+    platform: str = ""  # that has named the submission
 
 
 def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
@@ -46,12 +47,15 @@ def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     ids = [check.id for check in exercise.checks]
     head = ["student", "id", "submission", "score", "max_score", "outcome", *ids]
-    writer.writerow([cell(name) for name in [*head, "diagnosis", "submission_sha256", "truth_sha256", "folder"]])
+    writer.writerow(
+        [cell(name) for name in [*head, "diagnosis", "submission_sha256", "truth_sha256", "folder", "platform"]]
+    )
     for result in results:
         points = result["points"]
         row = [result["student"], result["id"], result["submission"], result["score"], exercise.max_score]
         row += [result["outcome"], *(points.get(id) for id in ids), result["diagnosis"]]
-        writer.writerow([cell(each) for each in [*row, result["sha256"], result["truth_sha256"], result["folder"]]])
+        row += [result["sha256"], result["truth_sha256"], result["folder"], result.get("platform", "")]
+        writer.writerow([cell(each) for each in row])
     return text.getvalue()
 
 
@@ -88,7 +92,7 @@ def read_gradebook(folder: Path) -> list[Row]:
 def _row(line: dict[str, str]) -> Row:
     score = float(line["score"]) if line["score"] else None
     most, outcome, told = float(line["max_score"]), line["outcome"], line["diagnosis"]
-    return Row(line["student"], line["id"], line["submission"], score, most, outcome, told)
+    return Row(line["student"], line["id"], line["submission"], score, most, outcome, told, line.get("platform", ""))
 
 
 def _unguarded(text: str) -> str:

@@ -21,11 +21,11 @@ def exercise(root):
 
 @pytest.fixture
 def grades(tmp_path, exercise):
-    """Write a gradebook of (student, id, submission, score)."""
+    """Write a gradebook of (student, id, submission, score, platform)."""
 
     def write(*found):
         facts = {"points": {}, "outcome": "graded", "diagnosis": "=x", "sha256": "", "truth_sha256": "", "folder": ""}
-        names = ("student", "id", "submission", "score")
+        names = ("student", "id", "submission", "score", "platform")
         folder = tmp_path / "grades"
         folder.mkdir()
         write_gradebook(folder, as_csv(exercise, [dict(zip(names, each, strict=True)) | facts for each in found]))
@@ -35,15 +35,18 @@ def grades(tmp_path, exercise):
 
 
 def test_a_gradebook_is_read_as_it_was_written(grades):
-    folder = grades(("=cmd|' x", "+1", "'a", 65.5), ("Jane", "", "Jane", None))
+    folder = grades(("=cmd|' x", "+1", "'a", 65.5, "Canvas"), ("Jane", "", "Jane", None, ""))
     first, second = read_gradebook(folder)
     assert (first.student, first.id, first.submission, first.score) == ("=cmd|' x", "+1", "'a", 65.5)
+    assert (first.platform, second.platform) == ("Canvas", "")
     assert (second.score, second.max_score, second.diagnosis) == (None, 100.0, "=x")
 
 
 def test_the_command(course, grades, tmp_path):
     folder = grades(
-        ("jane", "", "jane.py", 65.5), ("doejohn", "9", "doejohn_LATE_9_11_t.py", 80), ("eve", "", "eve", 1)
+        ("jane", "", "jane.py", 65.5, ""),
+        ("doejohn", "9", "doejohn_LATE_9_11_t.py", 80, "Canvas"),
+        ("eve", "", "eve", 1, ""),
     )
     submissions = tmp_path / "class.zip"
     with zipfile.ZipFile(submissions, "w") as archive:
@@ -70,16 +73,18 @@ def test_the_command(course, grades, tmp_path):
 
 
 def test_times_of_platforms_and_files(exercise, tmp_path):
-    folder = tmp_path / "class"
-    for name in ("submission_1", "Lab_jdoe_attempt_2026-09-12-14-33-21_x.py", "jane"):
-        (folder / name).mkdir(parents=True)
-        (folder / name / FILE).write_bytes(b"")
-    (folder / "submission_metadata.yml").write_text(
+    names = ("submission_1", "Lab_jdoe_attempt_2026-09-12-14-33-21_x.py", "jane")
+    for name in names:
+        (tmp_path / name / name).mkdir(parents=True)
+        (tmp_path / name / name / FILE).write_bytes(b"")
+    (tmp_path / "submission_1/submission_metadata.yml").write_text(
         "submission_1:\n  :submitters:\n  - :name: A\n    :email: a@x\n  :created_at: 2026-09-12 10:00:00.5 Z\n"
     )
-    times = submission_times(folder, exercise)
-    assert times["submission_1"] == (datetime(2026, 9, 12, 10, 0, 0, 500_000, UTC), "platform")
-    assert times["Lab_jdoe_attempt_2026-09-12-14-33-21_x.py"] == (datetime(2026, 9, 12, 14, 33, 21), "platform")
+    times = {
+        student: time for name in names for (student, _), time in submission_times(tmp_path / name, exercise).items()
+    }
+    assert times["A"] == (datetime(2026, 9, 12, 10, 0, 0, 500_000, UTC), "platform")
+    assert times["jdoe"] == (datetime(2026, 9, 12, 14, 33, 21), "platform")
     assert times["jane"].said_by == "file"
 
 
@@ -96,18 +101,21 @@ def test_the_time_of_a_commit_and_none_of_its_configuration(exercise, tmp_path):
     with (clone / ".git/config").open("a") as config:
         config.write(f'[core]\n\tfsmonitor = "touch {mark}"\n\tpager = "touch {mark}"\n[log]\n\tshowSignature = true\n')
     time = datetime(2026, 11, 12, 9, tzinfo=UTC)
-    assert submission_times(tmp_path / "class", exercise)["jane"] == (time, "commit")
+    assert submission_times(tmp_path / "class", exercise)["jane", "jane"] == (time, "commit")
     subprocess.run(["git", "gc", "-q"], cwd=clone, check=True, env={"PATH": "/usr/bin:/bin"})
     mark.unlink(missing_ok=True)
     (tmp_path / "ours").mkdir()
     assert commit_time(clone / ".git", tmp_path / "ours") == time, "packed, too"
     (clone / ".git/HEAD").write_text("ref: ../../../etc/passwd")
     assert commit_time(clone / ".git", tmp_path / "ours") is None
-    assert not mark.exists() and "jane" not in submission_times(tmp_path / "class", exercise)
+    assert not mark.exists() and ("jane", "jane") not in submission_times(tmp_path / "class", exercise)
 
 
 def test_canvas_marks_what_is_late(course, grades, tmp_path):
-    folder = grades(("doejane", "7", "doejane_LATE_7_11_t.py", 80), ("roejohn", "8", "roejohn_8_11_t.py", 70))
+    folder = grades(
+        ("doejane", "7", "doejane_LATE_7_11_t.py", 80, "Canvas"),
+        ("roejohn", "8", "roejohn_8_12_x_LATE_9_13_t.py", 70, "Canvas"),
+    )
     roster = tmp_path / "roster.csv"
     roster.write_text(
         table(

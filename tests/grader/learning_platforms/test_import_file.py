@@ -91,7 +91,7 @@ def test_the_worksheet_of_moodle_comes_back_with_grades(roster):
     people = roster(WORKSHEET_HEAD, jane, john)
     grades = made(
         people,
-        row("Jane Doe", "17", "Jane Doe_17_assignsubmission_file_", 65.0, diagnosis="<b> & =x"),
+        row("Jane Doe", "17", "Jane Doe_17_assignsubmission_file_", 65.0, diagnosis="<b> & =x", platform="Moodle"),
         late=lambda _: "",
     )
     head, line = parsed(grades.text)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from gz_course.grader.learning_platforms.matching import fold, match
 from gz_course.grader.learning_platforms.roster import read_roster
+from gz_course.grader.whole_class.platforms import CANVAS, GRADESCOPE, MOODLE
 from gz_course.tests.grader.learning_platforms.classes import (
     CANVAS_HEAD,
     MOODLE_HEAD,
@@ -64,20 +65,37 @@ def test_two_submissions_of_one_person_are_left_to_a_person(roster):
 def test_a_participant_of_moodle_is_found_by_number_if_the_name_agrees(roster):
     blank = [""] * 7
     people = roster(WORKSHEET_HEAD, ["Participant 17", "Jane Doe", "a@b", *blank], ["Participant 18", "X", "", *blank])
-    assert who(row("Jane Doe", "17", "Jane Doe_17_assignsubmission_file_"), people) == "Jane Doe"
-    other = who(row("Jane Doe", "18", "Jane Doe_18_assignsubmission_file_"), people)
+    assert who(row("Jane Doe", "17", "Jane Doe_17_assignsubmission_file_", platform=MOODLE), people) == "Jane Doe"
+    other = who(row("Jane Doe", "18", "Jane Doe_18_assignsubmission_file_", platform=MOODLE), people)
     assert other == "participant 18 of the roster is X; is the worksheet of another assignment?"
 
 
 def test_a_number_of_moodle_is_no_id_number(roster):
     people = roster(MOODLE_HEAD, ["Jane", "Doe", "18", "a@b.c", ""], ["John", "Roe", "17", "d@e.f", ""])
-    assert who(row("Jane Doe", "17", "Jane Doe_17_assignsubmission_file_"), people) == "Jane Doe"
+    assert who(row("Jane Doe", "17", "Jane Doe_17_assignsubmission_file_", platform=MOODLE), people) == "Jane Doe"
+
+
+def test_the_name_of_a_file_says_nothing_about_its_platform(roster):
+    people = roster(
+        CANVAS_HEAD, ["Doe, Jane", "4711", "s1", "jane", "A", "", ""], ["Roe, J", "1", "", "x", "A", "", ""]
+    )
+    for name in ("x_4711_99120_t.py", "x_4711_assignsubmission_file_t.py"):
+        assert who(row("x", "", name), people) == "J Roe", "the login"
+        assert "Canvas ID" in who(row("x", "9", name, platform=CANVAS), people)
+
+
+def test_who_has_an_id_is_not_found_by_a_name_that_is_the_id_of_another(roster):
+    people = roster(MOODLE_HEAD, JANE, JOHN)
+    for name in ("s123", "jane.doe@example.org"):
+        assert "nobody" in who(row(name, "s999", "submission_1", platform=GRADESCOPE), people)
+        assert who(row(name, "s124", "submission_1", platform=GRADESCOPE), people) == "John Roe"
 
 
 def test_canvas_is_matched_by_its_own_number_only(roster):
     people = roster(CANVAS_HEAD, ["Doe, Jane", "4711", "s1", "jane", "A", "", ""], ["Roe, J", "1", "", "", "A", "", ""])
-    assert who(row("doejane", "4711", "doejane_LATE_4711_99120_t.py"), people) == "Jane Doe"
-    assert "nobody in the roster has the Canvas ID" in who(row("doejane", "9", "doejane_9_99120_t.py"), people)
+    assert who(row("doejane", "4711", "doejane_LATE_4711_99120_t.py", platform=CANVAS), people) == "Jane Doe"
+    nobody = who(row("doejane", "9", "doejane_9_99120_t.py", platform=CANVAS), people)
+    assert "nobody in the roster has the Canvas ID" in nobody
     assert who(row("doejane"), people) == "Jane Doe"
 
 

@@ -25,7 +25,7 @@ def test_a_line_a_student_with_points_for_each_check(exercise):
     (row,) = rows(as_csv(exercise, [result()]))
     assert list(row)[:6] == ["student", "id", "submission", "score", "max_score", "outcome"]
     assert (row["student"], row["score"], row["max_score"], row["stops"]) == ("Jane", "65", "100", "20")
-    assert [check.id for check in exercise.checks] == list(row)[6:-4]
+    assert [check.id for check in exercise.checks] == list(row)[6:-5]
 
 
 def test_who_could_not_be_graded_has_no_points_rather_than_none(exercise):
