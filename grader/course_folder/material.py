@@ -30,12 +30,17 @@ def material_files(root: Path) -> Iterator[tuple[Path, Path]]:
                 yield inside, path
 
 
-def plain_files(folder: Path) -> Iterator[Path]:
-    """Yield the files of a folder, sorted, except hidden ones and caches. Raises ManifestError for a link out of it."""
+def plain_files(folder: Path, *, without_links_of: Path | None = None) -> Iterator[Path]:
+    """Yield the files of a folder, sorted, except hidden ones and caches.
+
+    Links that stand in `without_links_of` are left out. Raises ManifestError for another link out of the folder.
+    """
     for path in sorted(folder.rglob("*")):
         inside = path.relative_to(folder)
         parents = [inside, *inside.parents][:-1]
         if any(each.name.startswith(".") or any(each.match(trace) for trace in TRACES) for each in parents):
+            continue
+        if path.is_symlink() and path.parent == without_links_of:
             continue
         if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
             raise ManifestError(f"{path} is a link out of {folder}, which students do not get; copy the file instead")

@@ -20,6 +20,7 @@ from gz_course.grader.exercise.pristine import STARTERS
 
 CHECKOUT = Path(__file__).parents[2]
 CODE = ("sim", "grader", "public")
+NAMESPACE = "public/gz_course"  # its links are for editors in a checkout; Python does without them
 FILES = (
     "pyproject.toml",
     "constraints.txt",
@@ -101,7 +102,7 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
     }
     for base, names in ((root, PARTS), (code, CODE)):
         for name in names:
-            for path in plain_files(base / name):
+            for path in plain_files(base / name, without_links_of=code / NAMESPACE):
                 inside = path.relative_to(base)
                 if not any(inside.is_relative_to(each) for each in AUTHORS_ONLY):
                     if name in PARTS:
