@@ -29,6 +29,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from gz_course.grader.errors import InfrastructureError
+from gz_course.grader.process.forking import fork
 from gz_course.grader.process.temporary_folder import abandoned, sweep
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.grader.run.watchdog import Look
@@ -193,7 +194,7 @@ def _start(jobs: list[Job], memory: int, writing: int) -> int:
     if _may_fork():
         sys.stdout.flush()
         sys.stderr.flush()
-        pid = os.fork()
+        pid = fork()
         if pid == 0:
             _child(jobs, memory, writing)
         return pid

@@ -32,6 +32,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NoReturn
 
+from gz_course.grader.process.forking import fork
 from gz_course.grader.process.many_imports import many_imports
 from gz_course.grader.run.agent.course_agent.import_hooks import leave_out_generator
 
@@ -135,7 +136,7 @@ def fork_for(parent: int, channel: Connection) -> bool:
     _at_rest()
     told, tell = os.pipe()
     wait, begin = os.pipe()
-    between = os.fork()
+    between = fork()
     if between == 0:
         _in_between(parent, channel, told, tell, wait, begin)
         return True
@@ -158,7 +159,7 @@ def _in_between(parent: int, channel: Connection, told: int, tell: int, wait: in
     try:
         os.close(told)
         os.close(begin)
-        if os.fork():
+        if fork():
             os._exit(0)
         os.setsid()
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -8,10 +8,12 @@ Source: https://github.com/gazebosim/gz-transport/tree/gz-transport13/log/sql
 
 from __future__ import annotations
 
+import contextlib
 import sqlite3
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Self
 
 from gz_course.sim.gz.sim.errors import SimError
 
@@ -61,11 +63,11 @@ class LogWriter:
         self._path = path
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            self._database = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
-            for table in _TABLES:
-                self._database.execute(table)
-            self._database.execute("INSERT INTO migrations (to_version) VALUES (?)", (VERSION,))
-            self._database.execute("BEGIN")
+            with _opened(path, isolation_level=None) as self._database:
+                for table in _TABLES:
+                    self._database.execute(table)
+                self._database.execute("INSERT INTO migrations (to_version) VALUES (?)", (VERSION,))
+                self._database.execute("BEGIN")
         except (OSError, sqlite3.Error) as error:
             raise SimError(f"the log '{path}' cannot be written ({error})") from None
         self._topics: dict[tuple[str, str], int] = {}
@@ -112,7 +114,7 @@ class LogWriter:
 
 
 class Log:
-    """An existing log. Raises SimError if the file is no log."""
+    """An existing log, also as a context that closes it. Raises SimError if the file is no log."""
 
     def __init__(self, path: Path) -> None:
         """Open the file `path`, or the log in the folder `path`."""
@@ -120,8 +122,8 @@ class Log:
         if not self.path.is_file():
             raise SimError(f"there is no log '{self.path}'; gz sim --record --record-path FOLDER writes one")
         try:
-            self._database = sqlite3.connect(f"file:{self.path.resolve()}?mode=ro", uri=True, check_same_thread=False)
-            self.version = str(self._database.execute("SELECT to_version FROM migrations").fetchall()[-1][0])
+            with _opened(f"file:{self.path.resolve()}?mode=ro", uri=True) as self._database:
+                self.version = str(self._database.execute("SELECT to_version FROM migrations").fetchall()[-1][0])
         except (sqlite3.Error, IndexError) as error:
             raise SimError(f"'{self.path}' is not a log of Gazebo ({error})") from None
 
@@ -139,24 +141,41 @@ class Log:
         rows = self._database.execute(
             "SELECT topics.name, message_types.name, time_recv, message FROM messages "
             "JOIN topics ON topics.id = topic_id JOIN message_types ON message_types.id = message_type_id "
-            "WHERE ?1 IS NULL OR topics.name = ?1 ORDER BY messages.id",
-            (topic,),
+            "WHERE :topic IS NULL OR topics.name = :topic ORDER BY messages.id",
+            {"topic": topic},
         )
         for row in rows:
             yield Entry(*row)
 
     def latest(self, topic: str, time_ns: int) -> Entry | None:
         """Return the last message of a topic until a simulated time [ns], or the first one if all are later."""
-        for condition in ("<= ?2 ORDER BY time_recv DESC, messages.id DESC", "> ?2 ORDER BY time_recv, messages.id"):
+        for condition in ("<= ? ORDER BY time_recv DESC, messages.id DESC", "> ? ORDER BY time_recv, messages.id"):
             row = self._database.execute(
                 "SELECT topics.name, message_types.name, time_recv, message FROM messages "
                 "JOIN topics ON topics.id = topic_id JOIN message_types ON message_types.id = message_type_id "
-                f"WHERE topics.name = ?1 AND time_recv {condition} LIMIT 1",
+                f"WHERE topics.name = ? AND time_recv {condition} LIMIT 1",
                 (topic, time_ns),
             ).fetchone()
             if row is not None:
                 return Entry(*row)
         return None
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     def close(self) -> None:
         self._database.close()
+
+
+@contextlib.contextmanager
+def _opened(path: Path | str, **options: Any) -> Iterator[sqlite3.Connection]:
+    """Yield a connection that stays open, unless what is done first with it fails."""
+    database = sqlite3.connect(path, check_same_thread=False, **options)
+    try:
+        yield database
+    except BaseException:
+        database.close()
+        raise

@@ -200,9 +200,12 @@ def keep(thing: Any) -> Any:
     return thing
 
 
+_FUNCTION: Any = c.CFUNCTYPE(None).__base__
+
+
 def address(thing: Any) -> int:
     """Return the address of a structure or function, and keep it alive."""
-    if isinstance(thing, c._CFuncPtr):  # type: ignore[attr-defined]
+    if isinstance(thing, _FUNCTION):
         return c.cast(keep(thing), c.c_void_p).value or 0
     return c.addressof(keep(thing))
 

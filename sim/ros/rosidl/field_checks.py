@@ -12,7 +12,7 @@ import array
 import math
 from ast import literal_eval
 from collections import UserList, UserString
-from collections.abc import ByteString, Callable, Sequence, Set
+from collections.abc import Callable, Sequence, Set
 from typing import Any
 
 from rosidl_parser import definition as idl
@@ -156,7 +156,7 @@ def _basic_check(kind: idl.BasicType) -> Check:
 
 
 def _octet_check(field: str, value: Any) -> None:
-    fits = isinstance(value, bytes | ByteString) and len(value) == 1
+    fits = isinstance(value, bytes | bytearray) and len(value) == 1
     _expect(fits, f"The '{field}' field must be of type 'bytes' or 'ByteString' with length 1")
 
 

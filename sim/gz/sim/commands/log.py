@@ -122,16 +122,12 @@ def _playback(values: argparse.Namespace, pattern: re.Pattern[str]) -> int:
         source, separator, target = values.remap.partition(":=")
         if not separator or not options.add_topic_remap(source, target):
             raise ValueError(f"--remap takes FROM:=TO with two names of topics, but found {values.remap!r}")
-    log = Log(Path(values.file))
-    try:
-        with Node(options) as node:
-            stop = threading.Event()
-            try:
-                count = play(log, node, pattern, values.wait / 1000, 0.0 if values.fast else 1.0, stop.wait)
-            except KeyboardInterrupt:
-                return 0
-    finally:
-        log.close()
+    with Log(Path(values.file)) as log, Node(options) as node:
+        stop = threading.Event()
+        try:
+            count = play(log, node, pattern, values.wait / 1000, 0.0 if values.fast else 1.0, stop.wait)
+        except KeyboardInterrupt:
+            return 0
     print(f"{count} messages were played back.")
     return 0
 

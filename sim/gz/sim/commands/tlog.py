@@ -31,10 +31,8 @@ def run(values: argparse.Namespace) -> int:
         log = Log(Path(values.info or values.echo))
     except SimError as error:
         raise ValueError(str(error)) from None
-    try:
+    with log:
         return _info(log) if values.info else _echo(log, values.topic, values.num)
-    finally:
-        log.close()
 
 
 def _info(log: Log) -> int:

@@ -47,24 +47,22 @@ def recorded_world(path: Path) -> tuple[WorldDescription, int]:
     """
     from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 
-    log = Log(path)
-    try:
-        topics = log.topics()
-        sdf = next((each.topic for each in topics if each.topic.endswith("/log/sdf")), None)
-        if sdf is None:
-            raise SimError(f"'{log.path}' holds no world; gz sim --record writes one, gz log record does not")
-        text = StringMsg.FromString(next(log.messages(sdf)).data).data
-        description = read_world(text, "<recorded>", Diagnostics(quiet=True))
-        if not any(each.topic == _topic(description.name) for each in topics):
-            raise SimError(f"'{log.path}' has no poses on {_topic(description.name)}; only recordings made here do")
-        description.plugins = []
-        for model in description.models:
-            model.plugins = []
-        return description, max(each.last_ns for each in topics)
-    except (sqlite3.Error, DecodeError) as error:
-        raise SimError(f"'{log.path}' is damaged ({error}); record it again") from None
-    finally:
-        log.close()
+    with Log(path) as log:
+        try:
+            topics = log.topics()
+            sdf = next((each.topic for each in topics if each.topic.endswith("/log/sdf")), None)
+            if sdf is None:
+                raise SimError(f"'{log.path}' holds no world; gz sim --record writes one, gz log record does not")
+            text = StringMsg.FromString(next(log.messages(sdf)).data).data
+            description = read_world(text, "<recorded>", Diagnostics(quiet=True))
+            if not any(each.topic == _topic(description.name) for each in topics):
+                raise SimError(f"'{log.path}' has no poses on {_topic(description.name)}; only recordings made here do")
+            description.plugins = []
+            for model in description.models:
+                model.plugins = []
+            return description, max(each.last_ns for each in topics)
+        except (sqlite3.Error, DecodeError) as error:
+            raise SimError(f"'{log.path}' is damaged ({error}); record it again") from None
 
 
 def _topic(world: str) -> str:

@@ -38,14 +38,17 @@ class SqliteFile:
         self._types: set[str] = set()
         self.size = 0
         """The bytes of the messages so far."""
-        with self._explained():
+        with self._explained(), contextlib.ExitStack() as on_failure:
             # Written by one thread, which need not be the one that opens and closes it.
-            self._database = sqlite3.connect(path, check_same_thread=False)
+            self._database = on_failure.enter_context(
+                contextlib.closing(sqlite3.connect(path, check_same_thread=False))
+            )
             if preset != "resilient":
                 self._database.execute("PRAGMA synchronous = OFF")
             self._database.executescript(_TABLES)
             self._insert("schema", _SCHEMA_VERSION, DISTRO)
             self._database.commit()
+            on_failure.pop_all()
 
     def add_topic(self, topic: Topic, definition: tuple[str, str]) -> None:
         """Make a topic known; `definition` is its encoding and its text."""

@@ -1,5 +1,6 @@
 """Bags for tests: written by the recorder's writer, or as rosbag2's older storage writes them."""
 
+import contextlib
 import sqlite3
 import struct
 
@@ -46,7 +47,7 @@ def write_bag(folder, count=100, topics=(CHATTER, TWIST), **options):
 def write_database(path, with_definitions=True, count=10):
     """Write a `.db3` file with the tables of Jazzy, or with those of Foxy."""
     new = ", type_description_hash TEXT NOT NULL" if with_definitions else ""
-    with sqlite3.connect(path) as database:
+    with contextlib.closing(sqlite3.connect(path)) as database, database:
         database.execute(
             "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
             f"serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL{new})"

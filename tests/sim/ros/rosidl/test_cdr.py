@@ -69,7 +69,7 @@ def test_arrays_are_those_of_the_fields(packages):
         ("uint8[<=2] a", {"a": [1, 2, 3]}, "expected at most 2 elements, found 3"),
         ("string[2] a", {"a": ["x"]}, "expected 2 elements, found 1"),
         ("byte[] a", {"a": [b"ab"]}, "type 'bytes' with length 1"),
-        ("int8 a", {"a": 200}, "byte format requires"),
+        ("int8 a", {"a": 200}, "format requires"),
     ],
 )
 def test_values_that_do_not_fit_are_refused(packages, text, values, words):

@@ -110,6 +110,7 @@ def test_random_values_pass_through_the_type_support():
         assert as_values(deserialize_message(serialize_message(mine), theirs)) == as_values(twin)
 
 
+@pytest.mark.filterwarnings("ignore:.*ByteString:DeprecationWarning")  # of the compiled setters
 def test_setters_check_and_say_the_same():
     tried = [None, 1, -1, 2**70, 1.5, 1e300, "text", b"x", b"xy", [1, 2], ["a"], [1.5] * 9, [b"x"], object()]
     for ours, theirs in message_pairs():

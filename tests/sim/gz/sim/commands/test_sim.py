@@ -204,7 +204,8 @@ def test_time_starts_where_it_is_told_and_recordings_are_readable(
     folder = tmp_path / "log"
     arguments = ["--initial-sim-time", "100", "--iterations", "300", "-z", "100000", "--record-path", str(folder)]
     assert run_to_end(start, "empty.sdf", "-r", "-s", *arguments) == (0, "")
-    summary = {each.topic: each for each in Log(folder).topics()}
+    with Log(folder) as log:
+        summary = {each.topic: each for each in log.topics()}
     poses = summary["/world/empty/pose/info"]
     assert poses.count > 10 and 100.0e9 < poses.first_ns <= poses.last_ns <= 100.3e9
 

@@ -51,7 +51,8 @@ def test_a_model_that_comes_is_recorded_too(node: Node, tmp_path: Path) -> None:
     world.editor.spawn(text, name="second", pose=Pose((2.0, -2.0, 0.0)))
     world.step(400)
     world.close()
-    counts = {each.topic: each.count for each in Log(tmp_path / "log").topics()}
+    with Log(tmp_path / "log") as log:
+        counts = {each.topic: each.count for each in log.topics()}
     assert counts["/model/robot/odometry"] > counts["/model/second/odometry"] > 10
 
 
