@@ -18,7 +18,7 @@ from sensor_msgs_py.point_cloud2 import create_cloud_xyz32, read_points
 
 assert same is CvBridge and point_cloud2 is pc2 and laser_geometry.LaserProjection is LaserProjection
 assert "cv2" not in sys.modules
-print(*sorted({m.__name__.split(".")[2] for m in (cv_bridge, laser_geometry, message_filters, point_cloud2)}))
+print(*sorted({m.__name__.split(".")[3] for m in (cv_bridge, laser_geometry, message_filters, point_cloud2)}))
 """
 OURS = ["cv_bridge", "laser_geometry", "message_filters", "sensor_msgs_py"]
 

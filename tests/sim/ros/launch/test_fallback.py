@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 SIM, PUBLIC = ROOT / "sim", ROOT / "public"
 HOOK = "gz_ros2_course_prefix.pth"
 PUBLIC_NAMES = "gz_course_public_names"
