@@ -3,7 +3,7 @@
 import json
 import socket
 
-from gz_course.grader.run.processes.participant import MOST_UNSENT, Participant
+from gz_course.grader.run.processes.participant import MOST_ANSWERS, MOST_UNSENT, Participant
 
 MANY = 5_000  # orders; a socket holds some hundreds
 
@@ -62,4 +62,14 @@ def test_orders_come_in_their_order():
             read.append(json.loads(theirs.recv(1 << 16))["now"])
             participant.read()
         assert read == list(range(MOST_UNSENT))
+        participant.close()
+
+
+def test_who_asks_and_never_reads_does_not_fill_the_memory():
+    participant, theirs = connected()
+    with theirs:
+        for number in range(MANY):
+            theirs.send(json.dumps({"time": number}).encode())
+            participant.read()
+        assert len(participant._unsent) <= MOST_UNSENT + MOST_ANSWERS
         participant.close()
