@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 import socket
+from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -55,7 +56,7 @@ class Participant:
         self._sent = 0  # messages it had sent when it was last ordered to release one
         self._vain = 0  # orders in a row to which no message left
         self._woken = 0
-        self._unsent: dict[bytes, None] = {}  # in order; equal ones in a row ask for the same, such as to look again
+        self._unsent: deque[bytes] = deque()
         channel.setblocking(False)
         channel.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, LARGEST)
 
@@ -135,20 +136,19 @@ class Participant:
         A process that does not listen reads only while it waits for an answer: what came before fills the socket.
         """
         if len(self._unsent) < MOST_UNSENT + (MOST_ANSWERS if "answer" in order else 0):
-            self._unsent[json.dumps(order).encode()] = None
+            self._unsent.append(json.dumps(order).encode())
         self._send()
 
     def _send(self) -> None:
         """Send what has been kept, as much as there is room for."""
         while self._unsent:
-            first = next(iter(self._unsent))
             try:
-                self.channel.send(first)
+                self.channel.send(self._unsent[0])
             except BlockingIOError:
                 return
             except OSError:  # nobody will read it
                 pass
-            del self._unsent[first]
+            self._unsent.popleft()
 
     def read(self) -> None:
         """Read the messages that have arrived; set `gone` at the end of the connection."""
