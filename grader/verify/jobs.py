@@ -23,11 +23,12 @@ from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.grade import grade
-from gz_course.grader.process.interruption import end_on
+from gz_course.grader.process.interruption import end_on, undisturbed
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.report.report import Report
 
 PR_SET_PDEATHSIG = 1
+PATIENCE = 10.0  # [s] for a worker to end what it runs
 ATTEMPTS = 3  # at a grading that fails because of the machine
 
 
@@ -100,10 +101,16 @@ class Workers:
                 future.cancel()
 
     def close(self, *, at_once: bool) -> None:
-        """End the workers; `at_once` terminates what they are doing."""
+        """End the workers; `at_once` terminates what they are doing, and kills who has not ended after `PATIENCE`."""
         if at_once:
-            for process in multiprocessing.active_children():
+            # A worker that a signal has reached while it took the order to end waits for another one for ever.
+            workers = multiprocessing.active_children()
+            for process in workers:
                 process.terminate()
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            for process in workers:
+                process.join(PATIENCE)
+                process.kill()
         self._pool.shutdown(wait=True, cancel_futures=True)
 
 
@@ -118,7 +125,8 @@ def pool(count: int) -> Iterator[Pool]:
         try:
             yield workers
         except BaseException:
-            workers.close(at_once=True)
+            with undisturbed():
+                workers.close(at_once=True)
             raise
         workers.close(at_once=False)
 

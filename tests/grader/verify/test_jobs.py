@@ -95,12 +95,16 @@ def verifying(root, tmp_path, course_environment, running_in):
         process.communicate()
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_an_interrupted_verification_leaves_nothing(verifying, number, code):
-    if number == signal.SIGINT:
-        os.killpg(verifying.pid, number)  # as a terminal does
-    else:
+@pytest.mark.parametrize(
+    ("number", "code", "whole_group"),
+    [(signal.SIGINT, 130, True), (signal.SIGTERM, 143, False), (signal.SIGTERM, 143, True)],
+    ids=["by a terminal", "by kill", "by timeout"],
+)
+def test_an_interrupted_verification_leaves_nothing(verifying, number, code, whole_group):
+    if number == signal.SIGTERM:
         verifying.send_signal(number)
+    if whole_group:
+        os.killpg(verifying.pid, number)
     _, errors = verifying.communicate(timeout=120)
     assert verifying.returncode == code
     assert "Traceback" not in errors, errors

@@ -91,7 +91,7 @@ def until(processes, condition):
 @pytest.mark.parametrize("level", ["A", "B", "C", "D"])
 def test_its_orders_and_reports_are_seen_by_nobody_else(started, level):
     processes = started(level, NODE, SPY)
-    lines = until(processes, lambda lines: "looked" in lines)
+    lines = until(processes, lambda lines: "looked" in lines and processes.beside.reports)
     assert not any("ESCAPED" in line for line in lines), lines
     assert processes.beside.ready and processes.beside.reports == [f'{{"event": "got", "word": "{SECRET}"}}']
     until(processes, lambda _: any(p.number == NUMBER and p.progress for p in processes.participants))
