@@ -13,6 +13,8 @@ import os
 import subprocess
 import threading
 
+from gz_course.sim.child_end import await_end
+
 PATIENCE = 50  # [0.1 s] after each signal
 # It reads lines `+ TARGET` and `- TARGET`, where a target is a number for kill, negative for a process group; its only
 # argument is PATIENCE.
@@ -90,8 +92,7 @@ class _Watch:
         os.close(self._pipe)
         self._pipe = -1
         if self._shell is not None:
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                self._shell.wait(1.0)
+            await_end(self._shell, 1.0)
 
 
 _watch = _Watch()

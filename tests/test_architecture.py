@@ -107,7 +107,7 @@ FORBIDDEN |= {
 }
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {room: (room, *others) for room, others in USES.items()} | {AGENT: (AGENT,)}
-FOR_ALL = ("sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
+FOR_ALL = ("sim/child_end", "sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
 # A module that starts a program and imports how: what the program itself imports is another process.
 PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
 NO_ROS_MESSAGES = ("sim/gz", "grader/feedback", "grader/score", "grader/report")

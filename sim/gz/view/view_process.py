@@ -17,6 +17,7 @@ import webbrowser
 from collections.abc import Callable, Mapping
 from types import TracebackType
 
+from gz_course.sim.child_end import await_end
 from gz_course.sim.jupyter_proxy import reachable
 
 _END_S = 3.0
@@ -125,11 +126,9 @@ class View:
         if not self._said.is_set():  # it is starting up and does not read yet
             ways.pop(0)()
         for way in ways:
-            try:
-                process.wait(_END_S)
+            if await_end(process, _END_S) is not None:
                 break
-            except subprocess.TimeoutExpired:
-                way()
+            way()
         process.wait()
         self._thread.join(_END_S)
         process.stdout.close()

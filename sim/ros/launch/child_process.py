@@ -15,6 +15,7 @@ import subprocess
 import threading
 from collections.abc import Callable, Mapping, Sequence
 
+from gz_course.sim.child_end import await_end
 from gz_course.sim.orphan_watch import unwatch, watch
 
 _CHUNK = 65536
@@ -115,9 +116,7 @@ class ChildProcess:
     def kill(self) -> None:
         """Kill the whole group and reap the child; for use without an event loop."""
         self.send_signal(signal.SIGKILL)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._process.wait(1.0)
-            self._reaped = True
+        self._reaped = await_end(self._process, 1.0) is not None
 
     def write(self, data: bytes) -> None:
         """Write to its stdin, without blocking."""

@@ -23,6 +23,8 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from types import TracebackType
 
+from gz_course.sim.child_end import await_end
+
 LOOPBACK = "127.0.0.1"
 START_S = 60.0  # [s] for the viewer to start up
 GRACE_S = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
@@ -129,8 +131,7 @@ class Viewer:
         for escalation in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self._process.pid, escalation)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(GRACE_S)
+            if await_end(self._process, GRACE_S) is not None:
                 break
         self._process.wait()
         self._reader.join()

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 import os
 import sys
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from types import SimpleNamespace
 from typing import Any
 
@@ -57,26 +58,18 @@ def install_subprocess() -> None:
 
     def told_start(process: Any, *args: Any, **kwargs: Any) -> None:
         start(process, *args, **kwargs)
-        mute = kwargs.get("env") is not None and SOCKET not in kwargs["env"]  # it cannot find the grader
-        caller = sys._getframe(1).f_globals.get("__name__", "")
-        ours = caller.startswith("gz_course.")  # as when an action of a launch starts a program
-        _tell({"started": {"pid": process.pid, "program": "" if mute else _program(process.pid), "ours": ours}})
+        tell_start(process.pid, kwargs.get("env"), sys._getframe(1).f_globals.get("__name__", ""))
 
     def told_end(process: Any, *args: Any, **kwargs: Any) -> None:
         ended(process, *args, **kwargs)
-        _resume()  # before the end is known, so that time does not go on meanwhile
-        _tell({"ended": {"pid": process.pid, "code": process.returncode}})
+        tell_end(process.pid, process.returncode)
 
     def told_wait(method: Any) -> Any:
         def wait(process: Any, *args: Any, **kwargs: Any) -> Any:
             if process.returncode is None:
                 _wait_begins()
-            threads = watched()
-            with nullcontext() if threads is None else threads.waiting_for_child():
-                try:
-                    return method(process, *args, **kwargs)
-                finally:
-                    _resume()
+            with waiting_for_child(told=False):
+                return method(process, *args, **kwargs)
 
         return wait
 
@@ -142,6 +135,45 @@ def install_asyncio() -> None:
 
     loops._run_once, loops.time = told_run_once, fair_time
     writer._write_to_self = noted_write
+
+
+def tell_start(pid: int, environment: Any, caller: str) -> None:
+    """Report a process that the module `caller` has started in an environment (None: that of this process)."""
+    mute = environment is not None and not {SOCKET, SOCKET.encode()} & set(environment)  # it cannot find the grader
+    ours = caller.startswith("gz_course.")  # as when an action of a launch starts a program
+    _tell({"started": {"pid": pid, "program": "" if mute else _program(pid), "ours": ours}})
+
+
+def tell_end(pid: int, code: int) -> None:
+    """Report that a child has ended, as its parent has noticed."""
+    _resume()  # before the end is known, so that time does not go on meanwhile
+    _tell({"ended": {"pid": pid, "code": code}})
+
+
+@contextmanager
+def waiting_for_child(told: bool = True) -> Iterator[None]:
+    """Let the calling thread wait for another process, and on wish report first that this one only waits."""
+    if told:
+        _wait_begins()
+    threads = watched()
+    with nullcontext() if threads is None else threads.waiting_for_child():
+        try:
+            yield
+        finally:
+            _resume()
+
+
+@contextmanager
+def waiting() -> Iterator[None]:
+    """Report that this process only waits, for a signal, and that it goes on."""
+    if watched() is not None:  # its threads are watched one by one
+        yield
+        return
+    _wait_begins()
+    try:
+        yield
+    finally:
+        _tell({"awake": True})
 
 
 def _run_time() -> float:

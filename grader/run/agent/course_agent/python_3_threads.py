@@ -10,6 +10,7 @@ from __future__ import annotations
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
+from .python_3_os import SIGNALS
 from .self_check import Reliance, require
 from .thread_monitor import ThreadMonitor, WatchedLock, sleep
 
@@ -29,7 +30,6 @@ THREADS: dict[str, Reliance] = {
     "concurrent.futures.thread:ThreadPoolExecutor.__init__": ("", "SimpleQueue queue"),
 }
 CLOCKS = ("time", "monotonic", "perf_counter")
-SIGNALS = ("pause", "sigtimedwait", "sigwait", "sigwaitinfo")  # calls that wait for a signal
 
 _threads: ThreadMonitor | None = None
 

@@ -291,8 +291,10 @@ def test_old_kernels_have_no_pidfd(run, monkeypatch):
 LISTENER = """\
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own could come just before pause()
-signal.signal(signal.SIGUSR1, lambda *_: os.write(1, b"heard\\n"))
+signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1})  # a handler would not run if it came just before readline()
 os.write(1, b"up\\n")
+signal.sigwait({signal.SIGUSR1})
+os.write(1, b"heard\\n")
 line = sys.stdin.readline()
 os.write(1, b"read " + line.encode())
 signal.pause()
