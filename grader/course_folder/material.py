@@ -6,27 +6,28 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from gz_course.grader.errors import ManifestError
+from gz_course.grader.exercise.grading import GRADING
 
 PARTS = ("exercises", "chapters")
 CHAPTER_RULES = Path("chapters/README.md")
 TRACES = ("__pycache__", "*.pyc", "*.rrd", "*.rrd.part", "runs", "recorded_run", "*.egg-info", "*~", "*.orig", "*.bak")
 _CODE = Path(__file__).parents[2]  # the checkout, or the installed package
-PACKED = _CODE / "course"
 
 
 def material() -> Path:
     """Return the folder with `exercises/` and `chapters/` that came with this code."""
-    return PACKED if PACKED.is_dir() else _CODE
+    return _CODE
 
 
 def material_files(root: Path) -> Iterator[tuple[Path, Path]]:
-    """Yield each file of chapters and exercises below a course's folder: its path in there, and its full path.
+    """Yield each file that students get of a course's folder: its path in there, and its full path.
 
-    Raises ManifestError for a link out of it.
+    These are chapters and exercises without what grades them. Raises ManifestError for a link out of it.
     """
     for part in PARTS:
         for path in plain_files(root / part):
-            if (inside := path.relative_to(root)) != CHAPTER_RULES:
+            inside = path.relative_to(root)
+            if inside != CHAPTER_RULES and not (part == "exercises" and inside.parts[2:3] == (GRADING,)):
                 yield inside, path
 
 

@@ -1,7 +1,9 @@
-"""Exercises: what an author writes (`exercise`, `trial`, read by `toml_table`), and what is made from it."""
+"""Exercises: what an author writes (`exercise`, `trial`, read by `toml_table`), and what is made from it.
+
+`grading` finds and loads what grades an exercise.
+"""
 
 from gz_course.grader.exercise.exercise import (
-    MANIFEST,
     CheckSpec,
     Exercise,
     course_root,
@@ -10,4 +12,4 @@ from gz_course.grader.exercise.exercise import (
     load_exercise,
 )
 
-__all__ = ["MANIFEST", "CheckSpec", "Exercise", "course_root", "exercise_names", "find_exercise", "load_exercise"]
+__all__ = ["CheckSpec", "Exercise", "course_root", "exercise_names", "find_exercise", "load_exercise"]

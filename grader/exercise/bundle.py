@@ -1,4 +1,4 @@
-"""The files of one exercise that grading needs, held in memory: its public half and the hidden trials.
+"""The files of one exercise that grading needs, held in memory: its public half, what grades it, the hidden trials.
 
 A class is graded from first to last by the exercise as it was when the run began, on this machine or another
 (`whole_class/`), and a package for another service holds these files (`package/`). Solutions are never included, so a
@@ -12,6 +12,7 @@ from pathlib import Path
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.grading import GRADING, README
 from gz_course.grader.exercise.trial import TRIALS, load_trials
 from gz_course.grader.submission.intake import is_junk
 
@@ -25,7 +26,9 @@ def bundle(exercise: Exercise, trials: str = "public") -> tuple[dict[str, bytes]
     `trials` is as for `course grade`; a file is included as the hidden trials. Raises UsageError if there is no such
     file, ManifestError if a file cannot be read.
     """
-    files = _files(exercise.folder, f"exercises/{exercise.name}", set())
+    public = f"exercises/{exercise.name}"
+    files = _files(exercise.folder, public, {GRADING}) | _files(exercise.grading, f"{public}/{GRADING}", set())
+    files[f"{public}/{README}"] = _read(exercise.grading.parent / README)
     private = f"solutions/{exercise.name}"
     if trials in ("hidden", "all") and exercise.twin.is_dir():
         files |= _files(exercise.twin, private, SOLVED | set(exercise.parts))

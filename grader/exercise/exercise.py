@@ -1,19 +1,22 @@
 """An exercise as its folder describes it: files, world, bridge, observed topics, script, checks, points, hints.
 
-`exercises/NN_name/exercise.toml` is the only place that defines them. A folder with a manifest is an exercise and gives
-it its name.
+`exercises/NN_name/grading/exercise.toml` is the only place that defines them; the title and the task are those of the
+`README.md` that the student reads. A folder with a manifest is an exercise and gives it its name. A student's folder
+has no `grading/`: the installed course's counts (`grading.py`).
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import re
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from gz_course.grader.course_folder.material import material
 from gz_course.grader.errors import ManifestError, UsageError
+from gz_course.grader.exercise.grading import GRADING, MANIFEST, README, grading_files, grading_folder
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import (
     PUBLIC,
@@ -26,7 +29,7 @@ from gz_course.grader.exercise.trial import (
 from gz_course.grader.kinds.kind import find_kind, kind_names
 from gz_course.sim.did_you_mean import did_you_mean
 
-MANIFEST = "exercise.toml"
+TASK = re.compile(r"# (?P<title>[^\n]*\S)\n+(?P<summary>\S.*?)\s*(?:^## .*)?", re.DOTALL | re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -46,12 +49,13 @@ class Exercise:
     """One exercise as read from its manifest."""
 
     name: str
-    folder: Path
+    folder: Path  # what the student sees
+    grading: Path  # what grades it
     title: str
     summary: str
     kind: str  # of submission: a folder in `kinds/`
     file: str  # the file that is started
-    world: str  # a file beside the manifest, or a world's name
+    world: str  # a file of the folder, or a world's name
     robot: str
     duration: float  # [s] simulated
     tick: float  # [s] simulated time between two /clock messages
@@ -71,10 +75,13 @@ class Exercise:
 
     @property
     def manifest_sha256(self) -> str:
-        """SHA-256 of the manifest and of the files its `python` checks name; a recording keeps the value of its run."""
-        files = {str(c.parameters.get("function")).partition(":")[0] for c in self.checks if c.kind == "python"}
-        paths = [self.folder / MANIFEST, *(self.folder / name for name in sorted(files))]
-        return hashlib.sha256(b"".join(path.read_bytes() for path in paths if path.is_file())).hexdigest()
+        """SHA-256 of the manifest and of the Python files beside it; a recording keeps the value of its run."""
+        paths = [self.manifest, *grading_files(self.grading)]
+        return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+
+    @property
+    def manifest(self) -> Path:
+        return self.grading / MANIFEST
 
     @property
     def max_score(self) -> float:
@@ -97,13 +104,14 @@ def course_root() -> Path:
         return Path(given)
     here = Path.cwd()
     for folder in (here, *here.parents):
-        if any((folder / "exercises").glob(f"*/{MANIFEST}")):
+        if exercise_names(folder):
             return folder
     return material()
 
 
 def exercise_names(root: Path) -> list[str]:
-    return sorted(path.parent.name for path in (root / "exercises").glob(f"*/{MANIFEST}"))
+    """Return the names of the exercises of a course's folder, sorted."""
+    return sorted(path.name for path in (root / "exercises").glob("*/") if grading_folder(path) is not None)
 
 
 def find_exercise(name: str, root: Path | None = None) -> Exercise:
@@ -130,16 +138,19 @@ def find_exercise(name: str, root: Path | None = None) -> Exercise:
 
 
 def load_exercise(folder: Path) -> Exercise:
-    """Read and check a manifest. Raises ManifestError with the file and what is wrong."""
-    path = folder / MANIFEST
+    """Read and check the manifest of the exercise in a folder. Raises ManifestError with the file and what is wrong."""
+    grading = grading_folder(folder) or folder / GRADING
+    path = grading / MANIFEST
     manifest = Table.load(path)
+    title, summary = read_task(grading.parent / README)
     run = manifest.table("run")
     kind = manifest.choice("kind", kind_names()) if manifest.has("kind") else "node"
     exercise = Exercise(
         name=folder.name,
         folder=folder,
-        title=manifest.text("title"),
-        summary=manifest.text("summary").strip(),
+        grading=grading,
+        title=title,
+        summary=summary,
         kind=kind,
         file=manifest.text("file"),
         files=tuple(manifest.texts("files")) if manifest.has("files") else (),
@@ -167,6 +178,22 @@ def load_exercise(folder: Path) -> Exercise:
     return exercise
 
 
+def read_task(path: Path) -> tuple[str, str]:
+    """Return the title and the task of a `README.md`: its first heading, and what is between that and the next.
+
+    Raises ManifestError if it cannot be read or lacks one of them.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ManifestError(f"{path} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise ManifestError(f"{path}: {error}") from None
+    if not (found := TASK.fullmatch(text)):
+        raise ManifestError(f"{path} must begin with `# TITLE`, and then say what the student has to do")
+    return found["title"], found["summary"]
+
+
 def is_below(name: str) -> bool:
     """Return whether a name is that of a file below the folder it is relative to, in its one spelling."""
     path = PurePosixPath(name)
@@ -174,7 +201,7 @@ def is_below(name: str) -> bool:
 
 
 def _world(folder: Path, name: str) -> str:
-    """Return the file beside the manifest, if there is one of that name, else the name."""
+    """Return the file of the exercise's folder, if there is one of that name, else the name."""
     return str(folder / name) if (folder / name).is_file() else name
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gz_course.grader.errors import ManifestError
-from gz_course.grader.kinds.given_node import EXERCISE_NODE
+from gz_course.grader.kinds.given_node import node_file
 from gz_course.grader.record.reading import GIVEN_LOG
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.run.graph_snapshot import both_graphs
@@ -24,9 +24,7 @@ class ExerciseNodeRunLoop(RunLoop):
         facts = super().run(recorder)
         if facts["exit_at"] is not None or not facts["ready"]:
             how = "did not start to spin" if facts["exit_at"] is None else f"ended (exit code {facts['exit_code']})"
-            raise ManifestError(
-                f"{self._exercise.folder / EXERCISE_NODE}: the exercise's own node {how}; nothing is graded"
-            )
+            raise ManifestError(f"{node_file(self._exercise)}: the exercise's own node {how}; nothing is graded")
         return facts
 
     def _last_look(self) -> dict[str, Any]:

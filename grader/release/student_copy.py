@@ -1,7 +1,8 @@
 """The students' copy of the course: everything students work with, nothing that reveals a solution.
 
 Only listed folders and files are copied, so neither `solutions/` nor `tests/` (which hold solved exercises), recordings
-or caches can get into it. A starter that somebody has solved in place is refused.
+or caches can get into it. A starter that somebody has solved in place is refused. What grades the exercises is in the
+hidden folder `.grading`, where the package `gz_course` finds it.
 """
 
 from __future__ import annotations
@@ -12,15 +13,17 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from gz_course.grader.course_folder.material import CHAPTER_RULES, PARTS, plain_files
+from gz_course.grader.course_folder.material import PARTS, material_files, plain_files
 from gz_course.grader.course_folder.readme import FROM_A_COPY, readme
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
+from gz_course.grader.exercise.grading import GRADING, README
 from gz_course.grader.exercise.pristine import STARTERS
 
 CHECKOUT = Path(__file__).parents[2]
 CODE = ("sim", "grader", "public")
 NAMESPACE = "public/gz_course"  # its links are for editors in a checkout; Python does without them
+APART = ".grading"  # folder of what grades the exercises, as `public/gz_course/__init__.py` names it
 FILES = (
     "pyproject.toml",
     "constraints.txt",
@@ -34,7 +37,6 @@ FILES = (
 )
 # For authors only. The scaffold of an exercise holds its solution.
 AUTHORS_ONLY = (
-    str(CHAPTER_RULES),
     "grader/exercise/scaffold",
     "grader/release",
     "grader/package",
@@ -100,25 +102,31 @@ def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None
     together = {
         Path("exercises", e.name, name): [e.folder / part for part in e.parts] for e in exercises for name in e.parts
     }
-    for base, names in ((root, PARTS), (code, CODE)):
-        for name in names:
-            for path in plain_files(base / name, without_links_of=code / NAMESPACE):
-                inside = path.relative_to(base)
-                if not any(inside.is_relative_to(each) for each in AUTHORS_ONLY):
-                    if name in PARTS:
-                        _refuse_a_solution(together.get(inside, [path]), inside, private)
-                    (copy / inside).parent.mkdir(parents=True, exist_ok=True)
-                    shutil.copy(path, copy / inside)
+    for inside, path in material_files(root):
+        _refuse_a_solution(together.get(inside, [path]), inside, private)
+        _copy(path, copy / inside)
+    for name in CODE:
+        for path in plain_files(code / name, without_links_of=code / NAMESPACE):
+            inside = path.relative_to(code)
+            if not any(inside.is_relative_to(each) for each in AUTHORS_ONLY):
+                _copy(path, copy / inside)
     for name in FILES:
-        (copy / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(code / name, copy / name)
+        _copy(code / name, copy / name)
     for exercise in exercises:
         for name in exercise.parts:
-            kept = copy / STARTERS / exercise.name / name
-            kept.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(copy / exercise.folder.relative_to(root) / name, kept)
+            _copy(exercise.folder / name, copy / STARTERS / exercise.name / name)
+        home = copy / APART / "exercises" / exercise.name
+        _copy(exercise.grading.parent / README, home / README)
+        for path in plain_files(exercise.grading):
+            _refuse_a_solution([path], path.relative_to(root), private)
+            _copy(path, home / GRADING / path.relative_to(exercise.grading))
     notebooks = [path.relative_to(copy).as_posix() for path in sorted(copy.glob("chapters/*/*.ipynb"))]
     (copy / "README.md").write_text(readme(exercises, FROM_A_COPY, notebooks), encoding="utf-8")
+
+
+def _copy(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source, target)
 
 
 def _private(exercise: Exercise) -> list[tuple[Path, frozenset[str]]]:

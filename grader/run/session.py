@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gz_course.grader.errors import ManifestError
-from gz_course.grader.exercise import MANIFEST, Exercise
+from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.given_node import APART, EXERCISE_NODE
 from gz_course.grader.kinds.kind import find_kind
@@ -113,7 +113,7 @@ def run(
             loop = make_loop(exercise, trial, plan, domain.id, processes, pace, stack)
         except BridgeError as error:
             if not kind.brings_bridge:
-                raise ManifestError(f"{exercise.folder / MANIFEST}: {error.errors[0]}") from None
+                raise ManifestError(f"{exercise.manifest}: {error.errors[0]}") from None
             return record_unrunnable(exercise, replace(submission, fault=shown(error.errors[0])), trial, path)
         loop.heartbeat = heartbeat or loop.heartbeat
         with Recorder.begun(path, exercise.robot) as recorder:

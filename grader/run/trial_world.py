@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gz_course.grader.errors import ManifestError
-from gz_course.grader.exercise import MANIFEST, Exercise
+from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import Trial
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import Diagnostics, SimError
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def load_trial_world(exercise: Exercise, trial: Trial, node: Node | None) -> World:
     """Return the world of `exercise` modified by `trial`. Raises ManifestError if a world or model is missing."""
     own = trial.source if trial.world is not None or trial.poses else None  # else the exercise defines everything
-    where = f"{own or exercise.folder / MANIFEST}, trial {trial.name}"
+    where = f"{own or exercise.manifest}, trial {trial.name}"
     try:
         diagnostics = Diagnostics()
         description = read_world_file(find_world(exercise.world), diagnostics)

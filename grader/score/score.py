@@ -56,7 +56,7 @@ def score(recording: Recording, exercise: Exercise) -> Score:
     elif outcome == "tamper":  # what was forged may be nothing that a check can read
         findings = [SPOILT] * len(specs)
     else:
-        findings = _agreed(perform_all(specs, recording, exercise.folder))
+        findings = _agreed(perform_all(specs, recording, exercise.grading))
     checks = tuple(map(CheckResult, specs, findings))
     failed = [check for check in checks if not check.finding.passed]
     if outcome == "timeout" and not failed:

@@ -8,7 +8,7 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.similarity.report import Submitted
 from gz_course.grader.similarity.tokens import LEXERS, Text, read_text
-from gz_course.grader.submission.intake import LARGEST, folder_tree
+from gz_course.grader.submission.intake import LARGEST, folder_tree, without_grading
 from gz_course.grader.whole_class.found import Found
 
 
@@ -33,7 +33,7 @@ def submitted_texts(found: Iterable[Found]) -> tuple[list[Submitted], list[str]]
 def given_code(exercise: Exercise) -> list[Text]:
     """Return the starter and everything else in the exercise's public half that has a lexer."""
     try:
-        tree = folder_tree(exercise.folder)
+        tree = without_grading(folder_tree(exercise.folder))
         files = {name: member.read(LARGEST) for name, member in tree.items() if name.endswith(tuple(LEXERS))}
     except UsageError:
         return []

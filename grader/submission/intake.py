@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from gz_course.grader.errors import RefusedError, UnreadableError, UsageError
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.grading import GRADING, MANIFEST
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.submission import Submission
@@ -160,6 +161,12 @@ def is_junk(name: str) -> bool:
     return name.startswith(".") or name in JUNK
 
 
+def without_grading(tree: Tree) -> Tree:
+    """Return a tree without what grades an exercise, as in a clone of the course: no submission sees it."""
+    graders = [name.removesuffix(MANIFEST) for name in tree if f"/{name}".endswith(f"/{GRADING}/{MANIFEST}")]
+    return {name: member for name, member in tree.items() if not name.startswith(tuple(graders))}
+
+
 def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) -> Selection:
     """Find the expected file in a folder or archive and read it, with everything beside and below it.
 
@@ -167,6 +174,7 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
     and a single archive is opened. Raises UsageError if there is none, RefusedError if something must not be read.
     """
     tree = {n: m for n, m in tree.items() if not any(map(is_junk, n.split("/"))) and _is_utf8(n)}
+    tree = without_grading(tree)
     for name, member in sorted(tree.items()):
         if member.refusal:
             raise RefusedError(f"{where} holds {shown(name)!r}, which {member.refusal}; send plain files")

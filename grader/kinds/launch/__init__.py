@@ -1,7 +1,8 @@
 """`kind = "launch"`: the submission is a launch file, in Python, XML or YAML, that starts simulator, bridge and nodes.
 
 It is started with `ros2 launch`, in the folder that also holds what comes with the exercise (every file beside the
-manifest). The `parameters` of a trial are its arguments: `parameters = { paused = "true" }` is `paused:=true`.
+student's, and of the folder `worlds`). The `parameters` of a trial are its arguments: `parameters = { paused = "true" }`
+is `paused:=true`.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.exercise.grading import README
 from gz_course.grader.feedback.facts.origins import before_speeds, conditions
 from gz_course.grader.feedback.facts.own_ends import own_ends
 from gz_course.grader.feedback.launch_files import launch_places
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 
 
 LOST = ("is given twice", "a second document begins here", "is not a Gazebo topic name")
-MANIFEST = "exercise.toml"
+WORLDS = "worlds"  # folder of worlds beside the launch file
 _MARKUP = (".xml", ".yaml", ".yml")
 
 
@@ -40,9 +42,11 @@ def fault_of(name: str, content: bytes) -> str | None:
 
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the launch file, with what comes with the exercise beside it; record suspicious places as facts."""
-    own = (*exercise.parts, MANIFEST)
+    own = (*exercise.parts, README)
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
-    files = submission.files | {path.name: path.read_bytes() for path in beside}
+    beside += [path for path in exercise.folder.glob(f"{WORLDS}/*") if path.is_file()]
+    given = {path.relative_to(exercise.folder).as_posix(): path.read_bytes() for path in beside}
+    files = submission.files | given
     return RunPlan(submission.main, files, facts=_places(submission, exercise.duration))
 
 

@@ -25,6 +25,7 @@ SETTINGS = ("ld.so.cache", "alternatives", "localtime")  # of /etc
 DEVICES = ("null", "zero", "full", "random", "urandom")
 LINKS = {"/dev/fd": "/proc/self/fd", "/dev/stdin": "fd/0", "/dev/stdout": "fd/1", "/dev/stderr": "fd/2"}
 HALVES = ("exercises", "solutions")  # of a course: they may lie below one of the places shown
+INSTALLED = ("exercises", "chapters")  # of a course, in the installed package
 # Folders of the package `grader` that are needed inside.
 OF_THE_GRADER = ("run/agent", "run/sandbox/init")
 TMP_SIZE, TMP_FILES = 64 << 20, 20_000  # [bytes] and files of /tmp
@@ -96,8 +97,14 @@ def readable(places: Iterable[Place]) -> list[str]:
 
 
 def _courses(package: Path) -> list[Path]:
-    """Return the folders of courses: that of the exercises, and a checkout around the package `grader`."""
-    return [root for root in {course_root().resolve(), package.parent} if any((root / h).is_dir() for h in HALVES)]
+    """Return the folders of courses: that of the exercises, and what surrounds the package `grader`.
+
+    That is a checkout, or the installed package, of which `sim` must stay to be seen.
+    """
+    roots = {course_root().resolve(), package.parent}
+    found = [root for root in roots if any((root / half).is_dir() for half in HALVES)]
+    inside = Path(gz_course.__file__).resolve().parent
+    return [path for root in found for path in ((root / h for h in INSTALLED) if root == inside else (root,))]
 
 
 def _bind(path: str | Path, source: str | Path) -> Place:

@@ -1,0 +1,1 @@
+"""What grades the exercise 06_spawn: its checks, and what they say about mistakes."""

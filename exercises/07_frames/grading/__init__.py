@@ -1,0 +1,1 @@
+"""What grades the exercise 07_frames: its checks, and what they say about mistakes."""

@@ -1,0 +1,1 @@
+"""What grades the exercise 08_sensors: its checks, and what they say about mistakes."""

@@ -1,0 +1,1 @@
+"""What grades the exercise 09_closed_loop: its checks, and what they say about mistakes."""

@@ -1,0 +1,1 @@
+"""What grades the exercise 10_actions: its checks, and what they say about mistakes."""

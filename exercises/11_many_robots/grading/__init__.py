@@ -1,0 +1,1 @@
+"""What grades the exercise 11_many_robots: its checks, and what they say about mistakes."""

@@ -1,0 +1,1 @@
+"""What grades the exercise 13_capstone: its checks, and what they say about mistakes."""

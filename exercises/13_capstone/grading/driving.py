@@ -1,0 +1,375 @@
+"""What is wrong with how a robot explored, or with what its map leaves out; `checks.py` asks for it."""
+
+import re
+
+import numpy as np
+
+from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.score.floor import grown
+
+from . import last_commands
+
+AHEAD = 0.35  # [rad] to either side of the heading: what is touched there was driven at
+MOVED = 0.3  # [m]
+SLOW = 0.15  # [m/s]
+TURNS = 4.0  # of the whole robot, that are more than a way needs
+FITS = 0.8
+PLANNING = (
+    "sleep",
+    "forgets",
+    "pose",
+    "counter",
+    "sign",
+    "cell",
+    "way",
+    "search",
+    "straight",
+    "standstill",
+)  # suspects in how a way is found and followed
+
+
+def other_origin(x, y, grid):
+    """Return what an origin [m] is instead of the corner of the first cell of a grid."""
+    left, bottom, half = grid.left, grid.bottom, grid.resolution / 2
+    right = f"the corner of the first cell is at ({left:g}, {bottom:g})"
+    for (other_x, other_y), words in (
+        ((left / grid.resolution, bottom / grid.resolution), "which is in cells; in metres "),
+        ((0.0, 0.0), "so it is not set, or the corner is taken for the middle; "),
+        ((-left, -bottom), "which is the opposite corner; "),
+        ((bottom, left), "x and y are exchanged; "),
+        ((left + half, bottom + half), "which is the middle of the first cell; "),
+    ):
+        if np.hypot(x - other_x, y - other_y) < 1e-3:
+            return words + right
+    return right
+
+
+def commands(recording):
+    """Return the commanded speeds [m/s] and turning rates [rad/s]."""
+    return tuple(recording.signal(f"topics/cmd_vel/{name}").values for name in ("linear/x", "angular/z"))
+
+
+def stands(recording):
+    """Return why a robot never drove, as far as its commands and its file tell; empty if they do not."""
+    ahead, turning = commands(recording)
+    if not len(ahead):
+        return "no command came on /cmd_vel"
+    if said := suspect(recording, "forgets") or sideways(recording) or backwards(recording):
+        return said
+    tests = [f"line {each['line']}, `{each['code']}`" for each in recording.facts().get("before_speeds", [])]
+    never = f"; one of the conditions before it never held: {'; '.join(tests[-2:])}" if tests else ""
+    still = suspect(recording, "flag", "cell", "wide", "way")
+    if not np.abs(ahead).max() > 0.01 and not np.abs(turning).max() > 0.01:
+        return still or f"all of its {len(ahead)} commands were 0{never}"
+    if not np.abs(ahead).max() > 0.01:
+        said = suspect(recording, "sleep", "pose", "counter", "sign", "cell", "heading", "angle", "ray")
+        return still or said or f"linear.x was 0 in every command{never}"
+    return suspect(recording, "pose", "way")
+
+
+def backwards(recording):
+    """Return that the robot is commanded to drive backwards nearly always when it drives; empty if it is not."""
+    ahead, _ = commands(recording)
+    moving = ahead[np.abs(ahead) > 0.02]
+    if len(moving) < 10 or np.mean(moving < 0) < 0.8:
+        return ""
+    return (
+        f"linear.x is negative in {np.mean(moving < 0):.0%} of the commands that drive, such as {np.median(moving):.2f}"
+        " m/s: the robot drives backwards, away from where it looks; positive is ahead"
+    )
+
+
+def sideways(recording):
+    """Return that the robot is commanded to drive sideways; empty if it is not."""
+    aside = recording.signal("topics/cmd_vel/linear/y").values
+    _, turning = commands(recording)
+    for axis in "xy":
+        rolling = recording.signal(f"topics/cmd_vel/angular/{axis}").values
+        if np.mean(np.abs(rolling) > 0.02) > 0.1 if len(rolling) else False:
+            return f"angular.{axis} is up to {np.abs(rolling).max():.2f} rad/s: a robot on the floor turns by angular.z"
+    if not len(aside) or np.mean(np.abs(aside) > 0.02) < 0.1:
+        return ""
+    never = " (angular.z is 0 in every command)" if not np.abs(turning).max() > 0.01 else ""
+    return (
+        f"linear.y is up to {np.abs(aside).max():.2f} m/s, but a robot on two wheels cannot drive sideways: linear.x "
+        f"is straight ahead for the robot, whichever way it looks, and angular.z turns it{never}"
+    )
+
+
+def slow_or_lost(recording):
+    """Return why a robot that drove did not see all rooms; empty if that is not known."""
+    ahead, _ = commands(recording)
+    yaw = recording.signal("truth/robot/yaw").values
+    way = recording.signal("truth/robot/distance").values.max(initial=0.0)
+    x, y = (recording.signal(f"truth/robot/{name}").values for name in "xy")
+    seconds = recording.end_ns / 1e9
+    turns = float(np.abs(np.diff(yaw)).sum()) / (2 * np.pi)
+    if (
+        aside := sideways(recording)
+        or backwards(recording)
+        or suspect(recording, "sleep")
+        or last_commands.kept(recording)
+    ):
+        return aside
+    planning = suspect(recording, *PLANNING) or suspect(recording, "heading", "angle") or suspect(recording, "wide")
+    if turns > TURNS and way < 0.1 * seconds:
+        said = planning or suspect(recording, "heading", "angle", "ray", "wrap") or how_it_turned(recording)
+        return f"the robot turned around {turns:.0f} times and drove {way:.1f} m: {said}"
+    if len(ahead) and 0 < ahead.max() < SLOW:
+        return f"linear.x was {ahead.max():.2f} m/s at most, too slow to see all rooms in {seconds:.0f} s"
+    if way < 0.1 * seconds:
+        return f"the robot drove {way:.1f} m in {seconds:.0f} s: {planning or what_it_did(recording)}"
+    if planning or suspect(recording, "wrap"):
+        return planning or suspect(recording, "wrap")
+    _, turning = commands(recording)
+    for side, most in (("left", -turning.min(initial=0.0)), ("right", turning.max(initial=0.0))):
+        if most < 0.01 < np.abs(turning).mean() and turns > 2:
+            return (
+                f"angular.z never has the other sign: the robot turned to the {side} only, the long way round to all "
+                "that is on its other side: turn to the side on which the goal is"
+            )
+    if np.abs(yaw[-1] - yaw[0]) / (2 * np.pi) > TURNS:
+        return f"the robot drove in circles, {abs(yaw[-1] - yaw[0]) / (2 * np.pi):.0f} times around to the same side"
+    if max(np.ptp(x), np.ptp(y)) < 0.25 * way:
+        return f"the robot drove {way:.0f} m, but within {np.ptp(x):.1f} by {np.ptp(y):.1f} m, to and fro"
+    return ""
+
+
+def standing(recording):
+    """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
+    way = recording.signal("truth/robot/distance")
+    last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
+    if last > 0.7 * recording.end_ns / 1e9:
+        return ""
+    return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
+
+
+def how_it_turned(recording):
+    """Return what a robot that turned more than it drove did, as it is seen from outside."""
+    yaw = np.unwrap(recording.signal("truth/robot/yaw").values)
+    net, whole = abs(yaw[-1] - yaw[0]), float(np.abs(np.diff(yaw)).sum())
+    if net > 0.8 * whole:
+        return f"it turned to the {'left' if yaw[-1] > yaw[0] else 'right'} nearly all the time"
+    _, turning = commands(recording)
+    signs = np.sign(turning[np.abs(turning) > 0.05])
+    times = int(np.sum(signs[1:] != signs[:-1]))
+    if times > 5:
+        return f"it swung to and fro, and the sign of angular.z changed {times} times"
+    return "it turned to and fro"
+
+
+def what_it_did(recording):
+    """Return what a robot that drove little was commanded to do."""
+    ahead, turning = commands(recording)
+    if not len(ahead) or len(ahead) != len(turning):
+        return "most of the time it stood or turned"
+    times = recording.signal("topics/cmd_vel/linear/x").times / 1e9
+    moves = np.flatnonzero((np.abs(ahead) > 0.01) | (np.abs(turning) > 0.01))
+    last = float(times[moves[-1]]) if len(moves) else 0.0
+    if last < 0.8 * times[-1]:
+        why = suspect(recording, "ray") or "as if nothing were left to explore, or no way were found"
+        return f"all commands from {last:.0f} s on are 0; {why}"
+    if np.mean((np.abs(ahead) < 0.01) & (np.abs(turning) > 0.05)) > 0.5:
+        return how_it_turned(recording)
+    return "most of the time it stood or turned"
+
+
+def in_the_map(said, point, at):
+    """Return whether a map that came at a time [s] shows what was touched at a point [m]; None if it shows nothing."""
+    column, row = (int((point[i] + corner) / 0.1) for i, corner in ((0, 5.0), (1, 4.0)))
+    around = said[max(row - 2, 0) : row + 3, max(column - 2, 0) : column + 3]
+    if not around.size:
+        return ""
+    if (around >= 65).any():
+        return f"your map of {at:.1f} s shows it there"
+    shown = "free" if ((around >= 0) & (around <= 25)).sum() > (around < 0).sum() else "unknown"
+    return f"your map of {at:.1f} s does not show it: the cells there are {shown}"
+
+
+def touched(recording, radius, at, place, there=""):
+    """Return how the robot came to touch something at a time [ns], whose nearest point is at `place` (x, y) [m].
+
+    `there` says whether the map showed it.
+    """
+    x, y, yaw = (
+        float(np.interp(at, signal.times, signal.values))
+        for signal in (recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw"))
+    )
+    bearing = np.remainder(np.arctan2(place[1] - y, place[0] - x) - yaw + np.pi, 2 * np.pi) - np.pi
+    kinds = "sleep", "forgets", "pose", "counter", "sign", "cell", "way", "search", "part", "ray", "heading", "angle"
+    if said := suspect(recording, *kinds, "straight"):
+        return said
+    if said := last_commands.kept(recording, at / 1e9) or sideways(recording) or backwards(recording):
+        return said
+    if said := drives_while_turning(recording):
+        return said
+    if said := without_a_way(recording, at) or suspect(recording, "left_out_walls", "far_aim"):
+        return said
+    if abs(bearing) > AHEAD and (said := suspect(recording, "narrow")):
+        return said
+    if "does not show it" in there:
+        return f"{there}, so no way keeps away from it: see that hits stay in the map that it drives by"
+    more = f"; {there}" if there else ""
+    if abs(bearing) > AHEAD:
+        side = "left" if bearing > 0 else "right"
+        return (
+            f"it touched it with its {side} side, {abs(np.degrees(bearing)):.0f} degrees from ahead{more}: its way "
+            f"leaves less room than the robot's radius, {radius:g} m, or it does not keep to the cells of its way"
+        )
+    return f"it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time{more}"
+
+
+def without_a_way(recording, at):
+    """Return that a robot drove ahead where it had no way, if its command at a time [ns] was that one."""
+    said, signal = suspect(recording, "blind"), recording.signal("topics/cmd_vel/linear/x")
+    speed, before = re.search(r"linear\.x is ([\d.]+)", said), signal.values[signal.times <= at][-5:]
+    return said if speed and len(before) and np.any(np.abs(before - float(speed[1])) < 1e-3) else ""
+
+
+def drives_while_turning(recording):
+    """Return that the robot never slows down where it turns hard; empty if it does."""
+    ahead, turning = commands(recording)
+    if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.9:
+        return ""
+    hard = np.abs(turning) > 0.8 * np.abs(turning).max()
+    if hard.sum() < 10 or np.mean(ahead[hard] > 0.9 * ahead.max()) < 0.9:
+        return ""
+    return (
+        f"it drives on with {ahead.max():.2f} m/s, as fast as ever, while it turns with {np.abs(turning).max():.1f} "
+        "rad/s, and leaves its way in wide curves: drive slowly, or not at all, until it looks along the way"
+    )
+
+
+def unchanged(times, maps):
+    """Return since when all maps that came [ns] are the same; empty if one of the second half differs."""
+    same = next((n for n in range(len(maps) - 1, 0, -1) if not np.array_equal(maps[n], maps[n - 1])), 0)
+    if len(maps) < 6 or same > 0.5 * len(maps):
+        return ""
+    return (
+        f"no cell of the map has changed since {times[same] / 1e9:.1f} s: scans that came later are not drawn, so the "
+        "line that draws a scan stands behind a condition that no longer holds, or its result is not what is published"
+    )
+
+
+def hardly_any(recording, said, maps, hit=None):
+    """Return what is odd about a map with hardly any walls, given all maps that came, and the cells that were hit."""
+    if forgotten := suspect(recording, "forgets"):
+        return forgotten
+    if len(maps) > 3 and all(np.array_equal(maps[0], each) for each in maps):
+        kind = "all cells are unknown" if (said < 0).all() else f"{(said >= 65).sum()} cells are occupied"
+        return (
+            f"all {len(maps)} maps are the same, {kind}: data is made once and published again and again, so nothing "
+            "that is scanned gets into it; make new data for each publish()"
+        )
+    shown = said[hit] if hit is not None else np.empty(0)
+    if len(shown) >= 30 and ((shown >= 0) & (shown <= 25)).mean() > 0.5:
+        return (
+            "hardly any cell is occupied, and most walls that were hit are free: rays make the cells in which they end "
+            "free again; leave the last cell of a ray out of its way, or let a hit count for more than many passes"
+        )
+    return "hardly any cell is occupied"
+
+
+def nearest_point(shapes, point):
+    """Return the point of an obstacle that is nearest to one [m], found on rings around it."""
+    for distance in np.arange(0.0, 0.5, 0.01):
+        angles = np.linspace(-np.pi, np.pi, 73)
+        ring = np.stack([point[0] + distance * np.cos(angles), point[1] + distance * np.sin(angles)], 1)
+        off = shapes.nearest(ring)
+        if off.min() < 0.012:
+            return ring[int(off.argmin())]
+    return np.asarray(point)
+
+
+def by_own_origin(marked, columns, rows):
+    """Yield the map as it is if it was drawn for its own info.origin, which is off by so many cells."""
+    if 0 < abs(columns) + abs(rows) < 60:
+        words = "info.origin is not the corner that is asked for, and the cells are drawn for it: it is (-5, -4)"
+        yield words, np.roll(marked, (round(rows), round(columns)), (0, 1))
+
+
+def unclear(said, wanted):
+    """Return what the walls are if they are neither occupied nor free: values in between; empty if they are not."""
+    values = said[grown(wanted)]
+    between = (values > 25) & (values < 65)
+    if between.sum() < 30 or (grown(between_map(said))[wanted]).mean() < 0.3:
+        return ""
+    return (
+        f"many walls have values between 26 and 64, such as {np.median(values[between]):.0f}, which are neither free "
+        "nor occupied: decide for 0 or 100 where a hit was seen"
+    )
+
+
+def between_map(said):
+    return (said > 25) & (said < 65)
+
+
+def walls_missing(said, wanted, before, said_of=""):
+    """Return why walls that were hit are not in the map `said`, given where any earlier map had walls, or None."""
+    values = said[wanted]
+    if before is not None:
+        lost = before & ~grown(said >= 65)
+        if lost.sum() >= 20 and lost.sum() > 0.2 * before.sum():
+            if not said_of and ((said[lost] >= 0) & (said[lost] <= 25)).mean() > 0.6:
+                return (
+                    "walls that were in earlier maps are free in the last one: rays that pass a cell, or end in it, "
+                    "make it free again; a hit must count for more than they do"
+                )
+            words = said_of or "what was seen once must stay in the map, so add each scan to what is known"
+            return f"walls that were in earlier maps are gone: {words}"
+    if ((values >= 0) & (values <= 25)).mean() > 0.4:
+        return (
+            "many walls that were hit are free in the map: a ray that ends in a cell, or grazes it, makes it free "
+            "again; the hit counts more than the rays that pass"
+        )
+    if (values < 0).mean() > 0.4:
+        return "many walls that were hit are unknown in the map: hits of most rays, or of most scans, are left out"
+    return ""
+
+
+def not_free(said, by_hits, by_others):
+    """Return why cells that rays passed are not free: those of rays with a hit, and those of rays without one only."""
+    unknown = said < 0
+    others = by_others & ~by_hits
+    if others.sum() >= 50 and unknown[others].mean() > FITS and unknown[by_hits].mean() < 0.3:
+        return (
+            "only rays with a hit make cells free: a ray of inf has hit nothing within range_max, so all cells on its "
+            "way are free, too"
+        )
+    share = unknown[by_hits].mean() if by_hits.any() else 0.0
+    if share > 0.3:
+        beside = grown(~unknown & (said <= 25))
+        if beside[by_hits].mean() > share and (beside & by_hits & unknown).sum() > 0.6 * (by_hits & unknown).sum():
+            return (
+                f"{share:.0%} of the cells on the rays are unknown between cells that are free: the steps along a ray "
+                "are larger than a cell; half a cell is a good step"
+            )
+        return f"{share:.0%} of the cells that rays passed are still unknown: most rays, or most scans, are left out"
+    return ""
+
+
+def thick(recording, said, hit):
+    """Return by how many cells the walls of a map are widened around what was hit; empty if they are not."""
+    marked = said >= 65
+    if hit.sum() < 30 or marked.sum() < 2 * hit.sum():
+        return ""
+    for cells in range(6, 1, -1):
+        inside, outside = widened(hit, cells), widened(hit, cells + 1.6)
+        if marked[inside].mean() > 0.9 and outside[marked].mean() > 0.9:
+            where = suspect(recording, "alias")
+            where = f" ({where})" if where else ""
+            return (
+                f"the walls of your map are about {cells} cells thicker on every side than what was hit, as they are "
+                f"for planning a way: widen a copy, and publish the map as it was seen{where}"
+            )
+    return ""
+
+
+def widened(cells, by):
+    """Return the cells at most `by` cells away from those that are set."""
+    out, most = cells.copy(), int(by)
+    for row in range(-most, most + 1):
+        for column in range(-most, most + 1):
+            if row * row + column * column <= by * by:
+                out |= np.roll(cells, (row, column), axis=(0, 1))
+    return out
