@@ -17,4 +17,7 @@ def command(
     root = course_root()
     for path in scaffold(name, root):
         print(path.relative_to(root))
-    print(f"\nin {root}. It works as it is: `course verify {name}`. Begin with exercises/{name}/exercise.toml.")
+    print(
+        f"\nin {root}. It works as it is: `course verify {name}`. Begin with exercises/{name}/README.md and "
+        f"grading/exercise.toml."
+    )

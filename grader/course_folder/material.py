@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from gz_course.grader.errors import ManifestError
-from gz_course.grader.exercise.grading import GRADING
 
 PARTS = ("exercises", "chapters")
+GRADING = "grading"  # folder of an exercise that students do not get
 CHAPTER_RULES = Path("chapters/README.md")
 TRACES = ("__pycache__", "*.pyc", "*.rrd", "*.rrd.part", "runs", "recorded_run", "*.egg-info", "*~", "*.orig", "*.bak")
 _CODE = Path(__file__).parents[2]  # the checkout, or the installed package

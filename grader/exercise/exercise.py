@@ -29,7 +29,7 @@ from gz_course.grader.exercise.trial import (
 from gz_course.grader.kinds.kind import find_kind, kind_names
 from gz_course.sim.did_you_mean import did_you_mean
 
-TASK = re.compile(r"# (?P<title>[^\n]*\S)\n+(?P<summary>\S.*?)\s*(?:^## .*)?", re.DOTALL | re.MULTILINE)
+TASK = re.compile(r"# (?P<title>[^\n]*\S)\n+(?P<summary>(?!## )\S.*?)\s*(?:^## .*)?", re.DOTALL | re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,7 @@ def load_exercise(folder: Path) -> Exercise:
         script=read_script(manifest.tables("script", [])),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
         bridge_parameters=_texts(run.table("bridge_parameters", {})),
-        trials=read_trials(manifest.tables("trial", []), path) or (PUBLIC,),
+        trials=read_trials(manifest.tables("trial", []), path, folder) or (PUBLIC,),
     )
     if Path(exercise.file).name != exercise.file:
         manifest.refuse("file", "the name of a file, without folders")

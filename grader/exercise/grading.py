@@ -14,7 +14,8 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
-GRADING = "grading"
+from gz_course.grader.course_folder.material import GRADING
+
 MANIFEST = "exercise.toml"
 README = "README.md"
 INSTALLED = "gz_course.exercises"

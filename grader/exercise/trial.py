@@ -1,12 +1,12 @@
 """A trial: the parameters of one run. The same submission in the same trial gives the same run.
 
 Public trials are in the manifest as `[[trial]]`; an instructor's hidden ones in `solutions/NN_name/trials.toml`, with
-the same keys, all optional but the name:
+the same keys, all optional but the name. Their worlds may lie beside that file:
 
     [[trial]]
     name = "north"                          # part of the recording's file name
     seed = 7                                # of sensor noise and of the scripted speeds
-    world = "maze.sdf"                      # instead of the exercise's; a file beside this one, or a world's name
+    world = "maze.sdf"                      # instead of the exercise's; a file beside the student's, or a world's name
     duration = 10.0                         # [s] instead of the exercise's
     tick = 0.25                             # [s] between two /clock messages, instead of the exercise's
     poses = { robot = [-2, 1, 0, 0, 0, 1.57] }      # where models stand: x y z [m], roll pitch yaw [rad]
@@ -159,9 +159,12 @@ def numbered(trials: tuple[Trial, ...], seed: int = 0) -> tuple[Trial, ...]:
     )
 
 
-def read_trials(tables: list[Table], where: Path) -> tuple[Trial, ...]:
-    """Read the `[[trial]]` tables of the file `where`. Raises ManifestError if they are wrong."""
-    trials = tuple(_read(table, where) for table in tables)
+def read_trials(tables: list[Table], where: Path, folder: Path) -> tuple[Trial, ...]:
+    """Read the `[[trial]]` tables of the file `where`, whose worlds may be files of `folder`.
+
+    Raises ManifestError if they are wrong.
+    """
+    trials = tuple(_read(table, where, folder) for table in tables)
     check_names(trials, str(where))
     return trials
 
@@ -171,7 +174,7 @@ def load_trials(path: Path) -> tuple[Trial, ...]:
     if not path.is_file():
         raise UsageError(f"there is no file {path} with hidden trials; give another, or leave --trials out")
     table = Table.load(path)
-    trials = read_trials(table.tables("trial"), path)
+    trials = read_trials(table.tables("trial"), path, path.parent)
     table.end()
     return trials
 
@@ -201,15 +204,15 @@ def check_names(trials: tuple[Trial, ...], where: str) -> None:
             raise ManifestError(f"{where}: two trials are called {name!r}; each needs a name of its own")
 
 
-def _read(table: Table, where: Path) -> Trial:
+def _read(table: Table, where: Path, folder: Path) -> Trial:
     name = table.text("name")
     if not NAME.fullmatch(name):
         table.refuse("name", "letters, digits, _ and - only, because it becomes part of a file's name")
     table.where = f"{where}: trial {name!r}"
     poses = table.table("poses", {})
     world = table.text("world") if table.has("world") else None
-    if world is not None and (where.parent / world).is_file():
-        world = str(where.parent / world)
+    if world is not None and (folder / world).is_file():
+        world = str(folder / world)
     trial = Trial(
         name=name,
         seed=table.integer("seed", 0),

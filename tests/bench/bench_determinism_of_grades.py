@@ -35,7 +35,7 @@ def grade(exercise: str, out: Path) -> tuple[float, tuple[object, ...]]:
 
 
 def rows() -> Iterator[Row]:
-    for folder in sorted((ROOT / "exercises").glob("*/exercise.toml")):
+    for folder in sorted((ROOT / "exercises").glob("*/grading/exercise.toml")):
         yield row(folder.parent.name)
 
 

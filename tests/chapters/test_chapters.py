@@ -75,7 +75,7 @@ def test_there_are_chapters():
 @pytest.mark.parametrize("folder", sorted(p for p in (ROOT / "chapters").iterdir() if p.is_dir()), ids=lambda p: p.name)
 def test_a_chapter_has_a_notebook_and_an_exercise_of_its_name(folder):
     assert (folder / f"{folder.name}.ipynb").is_file()
-    assert (ROOT / "exercises" / folder.name / "exercise.toml").is_file()
+    assert (ROOT / "exercises" / folder.name / "grading/exercise.toml").is_file()
 
 
 @each_notebook
@@ -168,7 +168,7 @@ def test_work_is_checked_by_the_grader_itself(path):
 def test_the_file_to_edit_is_named_and_shown(path):
     import tomllib
 
-    manifest = tomllib.loads((ROOT / "exercises" / path.stem / "exercise.toml").read_text())
+    manifest = tomllib.loads((ROOT / "exercises" / path.stem / "grading/exercise.toml").read_text())
     prose = "".join(cell.source for cell in read(path).cells if cell.cell_type == "markdown")
     assert f"exercises/{path.stem}/{manifest['file']}" in prose
     assert any(manifest["file"] in cell.source for cell in code_cells(path)), "no cell shows the file"

@@ -86,5 +86,5 @@ def test_the_class_has_a_gradebook_with_the_scores_the_guide_leads_to(followed):
 
 def test_the_students_copy_holds_the_exercise_and_no_solution(followed):
     copy = followed[0] / "students"
-    assert (copy / "exercises/20_quarter_turn/exercise.toml").is_file()
+    assert (copy / "exercises/20_quarter_turn/README.md").is_file()
     assert not (copy / "solutions").exists() and not list(copy.rglob("trials.toml"))

@@ -27,7 +27,7 @@ def prose():
     for notebook in (ROOT / "chapters").rglob("*.ipynb"):
         cells = json.loads(notebook.read_text())["cells"]
         yield notebook, "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown")
-    for manifest in (ROOT / "exercises").glob("*/exercise.toml"):
+    for manifest in (ROOT / "exercises").glob("*/grading/exercise.toml"):
         yield manifest, manifest.read_text()
 
 

@@ -1,7 +1,6 @@
 """The checks of `07_frames`: every misconception they know is named, and a right answer in any style passes."""
 
-import runpy
-from pathlib import Path
+from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +8,7 @@ import pytest
 
 from gz_course.grader.record.reading import Line, Poses, Signal
 
-CHECKS = runpy.run_path(str(Path(__file__).parents[2] / "exercises/07_frames/checks.py"))
+CHECKS = import_module("gz_course.exercises.07_frames.grading.checks")
 RAYS, FIRST, STEP = 61, -2.0, 0.06
 UPSIDE_DOWN = (0.94, 0.34, 0.0, 0.0)  # x, y, z, w
 
@@ -66,35 +65,35 @@ class Run:
         return {"lookups": self.lookups}
 
     def places(self, turning=True):
-        return CHECKS["places"](self, {"turning": turning})
+        return CHECKS.places(self, {"turning": turning})
 
     @property
     def truth(self):
-        return CHECKS["right"](self, CHECKS["scans"](self))
+        return CHECKS.right(self, CHECKS.scans(self))
 
 
 @pytest.mark.parametrize("late", [0.0, 0.02, 0.1])
 def test_a_right_answer_passes_whenever_it_comes(late):
     run = Run()
     run.answer(run.truth, late)
-    found = [run.places(True), run.places(False), CHECKS["stamps"](run, {}), CHECKS["frames"](run, {})]
+    found = [run.places(True), run.places(False), CHECKS.stamps(run, {}), CHECKS.frames(run, {})]
     assert [each.passed for each in found] == [True] * 4, found
 
 
 def test_silence_earns_nothing():
     run = Run()
-    found = [run.places(True), run.places(False), CHECKS["stamps"](run, {}), CHECKS["frames"](run, {})]
+    found = [run.places(True), run.places(False), CHECKS.stamps(run, {}), CHECKS.frames(run, {})]
     assert [each.passed for each in found] == [False] * 4
 
 
 def test_every_misconception_is_named(monkeypatch):
     run = Run()
-    scans = CHECKS["scans"](run)
+    scans = CHECKS.scans(run)
     answered = SimpleNamespace(**vars(scans) | {"answered": scans.arrived + 0.02, "points": scans.hits})
-    told = list(CHECKS["predictions"](run, answered, run.truth))
+    told = list(CHECKS.predictions(run, answered, run.truth))
     assert len(told) > 30
     # They are the same for each answer, but for a few that depend on it and are given as they are here.
-    monkeypatch.setitem(CHECKS["places"].__globals__, "predictions", lambda *given: told)
+    monkeypatch.setitem(CHECKS.places.__globals__, "predictions", lambda *given: told)
     for words, points in told:
         if words == "always the same":
             continue  # depends on the answer
@@ -110,9 +109,9 @@ def test_every_misconception_is_named(monkeypatch):
 
 def test_the_hit_of_the_scan_that_has_just_come_is_no_hit_of_one_that_waited():
     run = Run()
-    scans = CHECKS["scans"](run)
+    scans = CHECKS.scans(run)
     hits = np.concatenate([scans.hits[1:], scans.hits[-1:]])
-    run.answer(CHECKS["odom"](run, scans.stamps).of(scans.mount.of(hits)), late=0.12)
+    run.answer(CHECKS.odom(run, scans.stamps).of(scans.mount.of(hits)), late=0.12)
     assert "the hits of the scan that has just come" in run.places().explanation
 
 
@@ -128,7 +127,7 @@ def test_the_hit_of_the_scan_that_has_just_come_is_no_hit_of_one_that_waited():
 def test_wrong_stamps_are_told_from_wrong_points(stamps, words):
     run = Run()
     run.answer(run.truth, late=0.02, stamps=stamps(run.at))
-    finding = CHECKS["stamps"](run, {})
+    finding = CHECKS.stamps(run, {})
     if words != "latest transform":  # which has the time of the scan here
         assert not finding.passed and words in finding.explanation, finding
     assert run.places().passed
@@ -137,16 +136,16 @@ def test_wrong_stamps_are_told_from_wrong_points(stamps, words):
 def test_points_that_come_with_the_next_scan_and_its_stamp():
     run = Run()
     run.answer(run.truth, late=0.1, stamps=run.at + 0.1)
-    said = CHECKS["stamps"](run, {}).explanation
+    said = CHECKS.stamps(run, {}).explanation
     assert "when they were published" in said and "those of the scan that has just come" in said
     assert run.places(True).passed and run.places(False).passed
     run.answer(run.truth, late=0.12, stamps=run.at + 0.1)
-    assert "those of the next scan" in CHECKS["stamps"](run, {}).explanation
+    assert "those of the next scan" in CHECKS.stamps(run, {}).explanation
 
 
 def test_another_frame_is_named():
     run = Run()
-    finding = CHECKS["frames"](run.answer(run.truth, frame="robot/scanner"), {})
+    finding = CHECKS.frames(run.answer(run.truth, frame="robot/scanner"), {})
     assert not finding.passed and "in which the point was measured" in finding.explanation
 
 
@@ -172,7 +171,7 @@ def test_silence_is_explained_by_what_the_node_asks_for(lookup, words):
 
 def test_points_with_the_stamp_of_another_scan_are_explained_by_when_they_came():
     run = Run()
-    odom, found = CHECKS["odom"], CHECKS["scans"](run)
+    odom, found = CHECKS.odom, CHECKS.scans(run)
     first = odom(run, np.full(len(run.at), run.at[0])).of(found.mount.of(found.hits))
     run.answer(first, late=0.02, stamps=np.full(len(run.at), run.at[0]))
     assert "a transform that was looked up once" in run.places().explanation
@@ -180,9 +179,9 @@ def test_points_with_the_stamp_of_another_scan_are_explained_by_when_they_came()
 
 def test_several_points_for_each_scan_and_hits_of_another_ray_are_named():
     run = Run()
-    found = CHECKS["scans"](run)
-    every = CHECKS["OTHER_HITS"]["hits_of"](found)
-    both = CHECKS["both_frames"](run, found)
+    found = CHECKS.scans(run)
+    every = CHECKS.other_hits.hits_of(found)
+    both = CHECKS.both_frames(run, found)
     at = np.repeat(run.at, 2)
     points = np.repeat(both.of(np.array([hits[20] for hits in every])), 2, axis=0)
     run.answer(both.of(np.array([hits[20] for hits in every])), late=0.02)
@@ -190,9 +189,9 @@ def test_several_points_for_each_scan_and_hits_of_another_ray_are_named():
     run.signals |= {f"topics/nearest_hit/point/{axis}": (at + 0.02, points[:, i]) for i, axis in enumerate("xyz")}
     run.signals["topics/nearest_hit/header/stamp"] = (at + 0.02, at)
     assert "about 2 points for each scan" in run.places().explanation
-    measure = CHECKS["OTHER_HITS"]["within"](-50.0, 50.0)
+    measure = CHECKS.other_hits.within(-50.0, 50.0)
     angles = FIRST + STEP * np.arange(RAYS)
-    near = CHECKS["OTHER_HITS"]["chosen"]([(hits, angles) for hits in every], measure)
+    near = CHECKS.other_hits.chosen([(hits, angles) for hits in every], measure)
     said = run.answer(both.of(near), late=0.02).places().explanation
     assert "only rays from about -48 to 49 degrees" in said
 
@@ -205,7 +204,7 @@ def test_a_scan_that_is_answered_again_and_again_has_several_points():
         run.signals[f"topics/nearest_hit/point/{axis}"] = (times, np.tile(truth[:, i], 3))
     run.signals["topics/nearest_hit/header/stamp"] = (times, np.tile(run.at, 3))
     run.signals["topics/nearest_hit/count"] = (times, np.ones(len(times)))
-    finding = CHECKS["stamps"](run, {})
+    finding = CHECKS.stamps(run, {})
     assert run.places().passed and not finding.passed
     assert "about 3 points for each scan, one after the other" in finding.explanation
 
@@ -222,22 +221,22 @@ def test_a_scan_that_is_answered_again_and_again_has_several_points():
 )
 def test_what_scans_without_a_point_have_in_common(left_out, words):
     run = Run()
-    found = CHECKS["scans"](run)
+    found = CHECKS.scans(run)
     away = np.linalg.norm(found.hits, axis=1)
     away = away / np.median(away)  # some to either side of 1 m
     angle = np.degrees(np.arctan2(found.hits[:, 1], found.hits[:, 0]))
     points = np.where(left_out(away, angle)[:, None], np.nan, run.truth)
     hits = found.hits * (away / np.linalg.norm(found.hits, axis=1))[:, None]
     seen = SimpleNamespace(points=points, stamps=run.at, hits=hits)
-    assert words in CHECKS["UNANSWERED"]["left_out"](seen, ~np.isnan(points[:, 0]), run.truth)
+    assert words in CHECKS.unanswered.left_out(seen, ~np.isnan(points[:, 0]), run.truth)
 
 
 def test_rays_of_a_part_of_the_scan_and_transforms_in_the_wrong_order():
     run = Run()
-    found, odom = CHECKS["scans"](run), CHECKS["odom"]
-    polar = CHECKS["polar"]
+    found, odom = CHECKS.scans(run), CHECKS.odom
+    polar = CHECKS.polar
     distance, angle = np.linalg.norm(found.hits, axis=1), np.arctan2(found.hits[:, 1], found.hits[:, 0])
-    both = CHECKS["both_frames"](run, found)
+    both = CHECKS.both_frames(run, found)
     said = run.answer(both.of(polar(distance, angle - 7 * STEP)), late=0.02).places().explanation
     assert "-24 degrees off, 7 rays: the number of a ray is counted" in said
     both_of, shift = both.of(found.hits - (0.2, 0.0, 0.0)), "(-0.20, 0.00, 0.00) m: there a hit is at range * cos"
@@ -253,8 +252,8 @@ def test_points_that_come_only_if_the_hit_has_moved():
     truth = np.zeros((60, 3))
     truth[:, 0] = np.arange(60) * 0.02
     there = np.arange(60) % 5 == 0
-    assert "had moved by about 0.10 m" in CHECKS["UNANSWERED"]["_unmoved"](there, truth)
-    assert CHECKS["UNANSWERED"]["_unmoved"](np.random.default_rng(1).random(60) < 0.5, truth) == ""
+    assert "had moved by about 0.10 m" in CHECKS.unanswered._unmoved(there, truth)
+    assert CHECKS.unanswered._unmoved(np.random.default_rng(1).random(60) < 0.5, truth) == ""
 
 
 @pytest.mark.parametrize(
@@ -276,8 +275,8 @@ def test_points_that_come_only_if_the_hit_has_moved():
 def test_slips_of_formulas(words, points):
     run = Run()
     run.mount = (0.2, -0.1, 0.3), (0.0, 0.0, np.sin(1.0), np.cos(1.0))
-    scans = CHECKS["scans"](run)
-    both, far = CHECKS["both_frames"](run, scans), np.linalg.norm(scans.hits, axis=1)
+    scans = CHECKS.scans(run)
+    both, far = CHECKS.both_frames(run, scans), np.linalg.norm(scans.hits, axis=1)
     angle = FIRST + STEP * scans.rays
     run.answer(points(run, scans, both, far, angle))
     assert words in run.places().explanation, run.places()

@@ -1,16 +1,14 @@
 """Wrong points, counts and stops in the hall are named by what they are."""
 
-import runpy
-from pathlib import Path
+from importlib import import_module
 
 import numpy as np
 import pytest
 
 from gz_course.grader.record.reading import Line, Poses, Signal
 
-FOLDER = Path(__file__).parents[2] / "exercises/08_sensors"
-CHECKS = runpy.run_path(str(FOLDER / "checks.py"))
-WORDS = runpy.run_path(str(FOLDER / "misconceptions.py"))
+CHECKS = import_module("gz_course.exercises.08_sensors.grading.checks")
+WORDS = import_module("gz_course.exercises.08_sensors.grading.misconceptions")
 POSTS = {
     "red_1": (2.2, 0.15),
     "red_2": (-1.2, 2.0),
@@ -46,9 +44,9 @@ class Hall:
             here = (0.0, 0.0, float(np.interp(t, now, yaw)))
             visible = {}
             for name, place in POSTS.items():
-                ahead, left = CHECKS["before_camera"](here, place)
+                ahead, left = CHECKS.before_camera(here, place)
                 if ahead > 0.3 and abs(np.arctan2(left, ahead)) < 0.5 and name.startswith("red"):
-                    visible[name] = points(ahead - CHECKS["RADIUS"], left)
+                    visible[name] = points(ahead - CHECKS.RADIUS, left)
             for name in sees(list(visible)):
                 at.append(t)
                 said.append((*visible[name], 0.0))
@@ -84,7 +82,7 @@ class Hall:
         return {"suspects": self.suspects}
 
     def found(self, name):
-        return CHECKS[name](self, {})
+        return getattr(CHECKS, name)(self, {})
 
 
 def test_a_right_run_passes():
@@ -128,8 +126,8 @@ def test_points_that_are_turned_by_the_heading_are_named(of_the_camera):
     points = []
     for at in np.arange(2.0, 9.0, 0.2):
         here = float(np.interp(at, now, x)), 0.0, float(np.interp(at, now, yaw))
-        ahead, left = CHECKS["before_camera"](here, POSTS["red_1"])
-        ahead, heading = ahead - CHECKS["RADIUS"] + of_the_camera, here[2]
+        ahead, left = CHECKS.before_camera(here, POSTS["red_1"])
+        ahead, heading = ahead - CHECKS.RADIUS + of_the_camera, here[2]
         points.append(
             (at, ahead * np.cos(heading) - left * np.sin(heading), ahead * np.sin(heading) + left * np.cos(heading))
         )
@@ -178,7 +176,7 @@ def test_the_number_again_and_again():
 
 def test_rules_for_the_same_post():
     here = np.array([[2.0, 0.0], [0.0, 2.0], [2.0, 0.1], [0.0, 2.1]])
-    told = {words.partition(":")[0]: number for words, number in WORDS["ways_to_count"](here, here, np.zeros(4))}
+    told = {words.partition(":")[0]: number for words, number in WORDS.ways_to_count(here, here, np.zeros(4))}
     assert told["that is the number if points up to 3 m apart are one post"] == 1
     assert told["that is the number if points more than 0.05 m apart are two posts"] == 4
     assert (
@@ -191,8 +189,8 @@ def test_rules_of_different_kinds_that_give_the_same_number_are_not_said():
     one = ("that is the number if points up to 1 m apart are one post: x", 4)
     other = ("that is the number if points up to 2 m apart are one post: x", 4)
     third = ("that is the number of places if the points are not turned by the heading", 4)
-    assert WORDS["the_only_one"](4, [one, other]) == one[0]
-    assert WORDS["the_only_one"](4, [one, third]) == WORDS["the_only_one"](5, [one]) == ""
+    assert WORDS.the_only_one(4, [one, other]) == one[0]
+    assert WORDS.the_only_one(4, [one, third]) == WORDS.the_only_one(5, [one]) == ""
 
 
 @pytest.mark.parametrize(
@@ -210,7 +208,7 @@ def test_a_wrong_bias_is_told_from_when_the_heading_was_a_full_turn(taken, words
     rates = np.where(turning, 0.8, 0.0) + 0.09 + 0.02 * np.random.default_rng(1).standard_normal(len(times))
     heading = np.cumsum(np.where(turning, (rates - taken(rates[~turning])) * 0.04, 0))
     until = heading < 2 * np.pi
-    said = WORDS["TURNING"].other_bias(times[until], rates[until], turning[until], 0.09)
+    said = WORDS.turning.other_bias(times[until], rates[until], turning[until], 0.09)
     assert words in said and bool(words) == bool(said), said
 
 
@@ -227,7 +225,7 @@ def test_points_beside_the_posts_are_explained_by_the_line_that_takes_the_height
 
 
 def test_another_line_through_the_columns_is_named():
-    hall = Hall(lambda a, b: (a, (117 - 80) / 80 * a + 117 / 80 * b * a / (a + CHECKS["RADIUS"])))
+    hall = Hall(lambda a, b: (a, (117 - 80) / 80 * a + 117 / 80 * b * a / (a + CHECKS.RADIUS)))
     finding = hall.found("places_the_posts")
     assert not finding.passed
     assert "-(column - 117 (fx = k[0])) / 80 (cx = k[2]) * ahead" in finding.explanation, finding
@@ -235,10 +233,10 @@ def test_another_line_through_the_columns_is_named():
 
 def test_depths_taken_for_rays_are_not_taken_for_wrong_times():
     angles = np.tile([0.1, 0.3, -0.4, 0.45], 6)
-    there = np.stack([2 + CHECKS["RADIUS"] + 0 * angles, (2 + CHECKS["RADIUS"]) * np.tan(angles)], axis=1)[:, None]
-    said = WORDS["DIRECTIONS"].of_rays(there, 2 * np.cos(angles), 2 * np.sin(angles))
+    there = np.stack([2 + CHECKS.RADIUS + 0 * angles, (2 + CHECKS.RADIUS) * np.tan(angles)], axis=1)[:, None]
+    said = WORDS.directions.of_rays(there, 2 * np.cos(angles), 2 * np.sin(angles))
     assert "multiplied by the cosine of the bearing" in said
-    assert WORDS["DIRECTIONS"].of_rays(there, 2 + 0 * angles, 2 * np.tan(angles)) == ""
+    assert WORDS.directions.of_rays(there, 2 + 0 * angles, 2 * np.tan(angles)) == ""
 
 
 def test_points_of_earlier_pictures():
@@ -262,9 +260,9 @@ def test_stamps_of_no_picture_and_posts_that_are_left_out():
     stamps = np.array([200_000_000, 400_000_000])
     POSTS["red_9"] = (1.9, -0.6)
     try:
-        assert "not each of them got a point" in WORDS["DIRECTIONS"].one_a_picture(one, there, stamps)
+        assert "not each of them got a point" in WORDS.directions.one_a_picture(one, there, stamps)
         both = np.array([POSTS["red_1"], POSTS["red_9"]] * 2)
-        assert WORDS["DIRECTIONS"].one_a_picture(one, both, np.repeat(stamps, 2)) == ""
+        assert WORDS.directions.one_a_picture(one, both, np.repeat(stamps, 2)) == ""
     finally:
         del POSTS["red_9"]
 
@@ -284,8 +282,8 @@ def test_rates_times_a_time_that_grows():
     times = np.arange(0.0, 4.0, 0.04)
     rates = np.where(times > 1.0, 0.8, 0.0)
     full = times[np.cumsum(rates * times) >= 2 * np.pi][0]
-    assert "time since one and the same message" in WORDS["TURNING"].since_the_first(times, rates, full * 1e9)
-    assert WORDS["TURNING"].since_the_first(times, rates, 9e9) == ""
+    assert "time since one and the same message" in WORDS.turning.since_the_first(times, rates, full * 1e9)
+    assert WORDS.turning.since_the_first(times, rates, 9e9) == ""
 
 
 def test_a_robot_that_backs_away_from_the_post():
@@ -300,9 +298,9 @@ def test_a_robot_that_backs_away_from_the_post():
 def test_a_robot_that_turns_the_long_way_to_the_post():
     hall = Hall(stop=0.5)
     times, yaw = hall.signals["truth/robot/yaw"]
-    assert WORDS["STOPPING"].turned_far(hall) == ""
+    assert CHECKS.stopping.turned_far(hall) == ""
     hall.signals["truth/robot/yaw"] = (times, np.where(times > 11.0, yaw - 2 * np.pi, yaw))
-    assert "after the number came it turned by 356 degrees" in WORDS["STOPPING"].turned_far(hall)
+    assert "after the number came it turned by 356 degrees" in CHECKS.stopping.turned_far(hall)
 
 
 def test_points_where_no_post_stands_are_put_down_to_walls_only_if_they_lie_there():
@@ -310,14 +308,14 @@ def test_points_where_no_post_stands_are_put_down_to_walls_only_if_they_lie_ther
     assert "walls or floor" not in hall.found("places_the_posts").explanation
     beside = Hall(lambda a, b: (0.5 + 0.3 * a, 0.5))
     beside.suspects = [{"about": "overflow", "line": 9, "said": "2 * green overflows"}]
-    said = CHECKS["why_somewhere"](beside, *_given(beside))
+    said = CHECKS.why_somewhere(beside, *_given(beside))
     assert "walls or floor count as red: line 9: 2 * green overflows" in said
     beside.suspects = []
-    assert "walls" not in CHECKS["why_somewhere"](beside, *_given(beside))
+    assert "walls" not in CHECKS.why_somewhere(beside, *_given(beside))
 
 
 def _given(hall):
-    points, stamps, _ = CHECKS["said_points"](hall)
+    points, stamps, _ = CHECKS.said_points(hall)
     return points, stamps, np.zeros(len(points), bool)
 
 
@@ -326,7 +324,7 @@ def test_directions_that_are_exchanged_make_as_many_places_as_headings_of_the_ot
     hall = Hall()
     hall.suspects = [{"line": 9, "about": about, "said": "atan2(ahead, left)"}] if about else []
     when = 9_000_000_000
-    hall.signals["topics/red_count/data"] = ([9.0], [CHECKS["found_if"](hall, when, -1.0)])
+    hall.signals["topics/red_count/data"] = ([9.0], [WORDS.hall.found_if(hall, when, -1.0)])
     assert words in hall.found("counts_the_posts").explanation
 
 

@@ -1,13 +1,9 @@
 """What is counted, how long a leg takes, where the robot goes after the last waypoint, and which distances are said."""
 
-import runpy
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-PATROLS = runpy.run_path(str(Path(__file__).with_name("test_10_actions.py")))
-Patrol, POINTS, STEP, found, cancelled = (PATROLS[name] for name in ("Patrol", "POINTS", "STEP", "found", "cancelled"))
+from gz_course.tests.exercises.patrols import POINTS, STEP, Patrol, cancelled, found
 
 
 @pytest.mark.parametrize(

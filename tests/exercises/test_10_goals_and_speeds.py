@@ -1,13 +1,9 @@
 """Goals that are accepted wrongly, waypoints that are passed or left over, and speeds, in patrols of `10_actions`."""
 
-import runpy
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-PATROLS = runpy.run_path(str(Path(__file__).with_name("test_10_actions.py")))
-Patrol, POINTS, STEP, found = (PATROLS[name] for name in ("Patrol", "POINTS", "STEP", "found"))
+from gz_course.tests.exercises.patrols import POINTS, STEP, Patrol, found
 
 
 def accepted(*goals, status="CANCELED", suspects=()):

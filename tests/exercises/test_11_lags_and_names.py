@@ -1,16 +1,25 @@
 """More of `11_many_robots`: followers that are late or mix things up, and convoys that are not all there."""
 
-import runpy
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from gz_course.tests.exercises.convoys import (
+    CHECKS,
+    FITS,
+    Run,
+    bearing,
+    distance,
+    rule,
+    speed_of,
+    told,
+    wrapped,
+)
+
 HERE = Path(__file__).parent
-CONVOY = runpy.run_path(str(HERE / "test_11_many_robots.py"))
-FITS, CHECKS, Run, told, rule = (CONVOY[name] for name in ("FITS", "CHECKS", "Run", "told", "rule"))
-distance, bearing, speed_of, wrapped = (CONVOY[name] for name in ("distance", "bearing", "speed_of", "wrapped"))
 GAP = 1.2
 
 
@@ -21,7 +30,7 @@ def beside(h, east, north):
 
 
 def late(speed):
-    return FITS["LAGS"]["late"](Run(rule(speed)), "robot2", "robot1", FITS["heard"], FITS["line"])
+    return FITS.follower_lags.late(Run(rule(speed)), "robot2", "robot1", FITS.heard, FITS.line)
 
 
 def kept():
@@ -78,13 +87,13 @@ def test_linear_and_angular_exchanged():
 
 
 def test_a_follower_that_stops_for_ever():
-    stopped = FITS["LAGS"]["stopped"]
-    heard = [FITS["heard"](Run(rule(speed)), "robot2", "robot1") for speed in (lambda h: 0.0, lambda h: h.v)]
+    stopped = FITS.follower_lags.stopped
+    heard = [FITS.heard(Run(rule(speed)), "robot2", "robot1") for speed in (lambda h: 0.0, lambda h: h.v)]
     assert stopped(heard[0]) and not stopped(heard[1])
 
 
 def test_gaps_that_are_added_up():
-    added = CHECKS["ROWS"]["added_up"]
+    added = CHECKS.convoy_rows.added_up
     said = "its speed is zero at a distance of 2.40 m, so that is the gap it keeps"
     assert "the gaps to all 2 robots before it, added up" in added(said, 2)
     assert added(said, 1) == added("", 2) == added(said, 3) == ""
@@ -98,28 +107,28 @@ def test_a_gap_between_front_and_back():
 def test_a_list_with_too_few_robots():
     place = {"file": "convoy.launch.py", "line": 9, "count": 3, "said": "NAMES ends at 3"}
     recording = SimpleNamespace(facts=lambda: {"fixed_counts": [place]})
-    said = CHECKS["ROWS"]["ends_there"](recording, 3, "called with robots:=4")
+    said = CHECKS.convoy_rows.ends_there(recording, 3, "called with robots:=4")
     assert "convoy.launch.py, line 9: NAMES ends at 3, so no more than 3 robots come" in said
-    assert CHECKS["ROWS"]["ends_there"](recording, 2, "called with robots:=4") == ""
+    assert CHECKS.convoy_rows.ends_there(recording, 2, "called with robots:=4") == ""
 
 
 def test_which_followers_are_missing():
-    ends, names = CHECKS["ENDS"], ["robot1", "robot2", "robot3"]
-    assert "only the last robot, robot3, has no follower" in ends["missing"]("robot3", names, ["/robot2/follower"])
-    assert "only the last robot, robot3, has a follower" in ends["missing"]("robot2", names, ["/robot3/follower"])
-    assert ends["missing"]("robot2", names, []) == ""
-    assert "2 programs were started, and all are called" in ends["one_name_for_several"](2, ["/robot2/follower"])
-    assert ends["one_name_for_several"](1, ["/robot2/follower"]) == ""
+    ends, names = CHECKS.follower_ends, ["robot1", "robot2", "robot3"]
+    assert "only the last robot, robot3, has no follower" in ends.missing("robot3", names, ["/robot2/follower"])
+    assert "only the last robot, robot3, has a follower" in ends.missing("robot2", names, ["/robot3/follower"])
+    assert ends.missing("robot2", names, []) == ""
+    assert "2 programs were started, and all are called" in ends.one_name_for_several(2, ["/robot2/follower"])
+    assert ends.one_name_for_several(1, ["/robot2/follower"]) == ""
 
 
 def test_how_often_a_program_was_started():
     texts = ["[INFO] [gz-1]: process started", "[INFO] [python3-6]: process started with pid", "[INFO] [create-3]: x"]
     recording = SimpleNamespace(lines=lambda entity: [SimpleNamespace(text=text) for text in texts])
-    assert CHECKS["ENDS"]["started"](recording) == 1
+    assert CHECKS.follower_ends.started(recording) == 1
 
 
 def test_a_follower_that_falls_silent():
-    ends = runpy.run_path(str(HERE.parents[1] / "exercises/11_many_robots/follower_ends.py"))
+    ends = import_module("gz_course.exercises.11_many_robots.grading.follower_ends")
 
     def said(until):
         times = {"cmd_vel": np.arange(0.1, until, 0.05), "distance": np.arange(0.0, 7.0, 0.05)}
@@ -129,7 +138,7 @@ def test_a_follower_that_falls_silent():
             signal=lambda name: next(signals[each] for each in signals if each in name),
             facts=lambda: {"suspects": [place]},
         )
-        return ends["few"](recording, "robot2")
+        return ends.few(recording, "robot2")
 
     assert said(0.95) == "its node publishes 17 commands only, and its last command comes at 0.9 s: line 7: so it is"
     assert said(7.0) == ""

@@ -1,103 +1,29 @@
 """The checks of `11_many_robots`: what a follower with a misconception sends is named, and where robots stand."""
 
-import runpy
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from gz_course.grader.record.reading import Signal
-
-FOLDER = Path(__file__).parents[2] / "exercises/11_many_robots"
-FITS = runpy.run_path(str(FOLDER / "follower_fits.py"))
-CHECKS = runpy.run_path(str(FOLDER / "convoy_checks.py"))
-STEP, END = 0.05, 7.0
-GAP = 1.2
-
-
-class Run:
-    """A recording of robot2, which follows robot1 by `rule`: a function of what it hears that returns its command."""
-
-    def __init__(self, rule, delay=1):
-        front = self.path(lambda now: (0.5 * (1.0 <= now < 5.0), 0.4 * (3.0 <= now < 5.0)))
-        x = y = yaw = 0.0
-        rows, old = [], []
-        for index, now in enumerate(np.arange(0.0, END, STEP)):
-            old.append((x, y, yaw, *front[index]))
-            own_x, own_y, heading, front_x, front_y, front_yaw, v, w = old[max(0, index - delay)]
-            h = SimpleNamespace(x=own_x, y=own_y, heading=heading, front_x=front_x, front_y=front_y, v=v, w=w)
-            h.ahead, h.aside, h.front_heading = front_x + GAP - own_x, front_y - own_y, front_yaw
-            linear, angular = rule(h)
-            rows.append((now, linear, angular, x, y, yaw, *front[index]))
-            x, y, yaw = self.moved(x, y, yaw, linear, angular)
-        columns = np.array(rows).T
-        now, linear, angular, x, y, yaw, front_x, front_y, front_yaw, v, w = columns
-        self.signals = {
-            "topics/robot2/cmd_vel/linear/x": (now, linear),
-            "topics/robot2/cmd_vel/angular/z": (now, angular),
-        }
-        for robot, place in (("robot2", (x, y, yaw, linear, angular)), ("robot1", (front_x, front_y, front_yaw, v, w))):
-            base = f"topics/{robot}/odom"
-            self.signals |= {f"{base}/pose/pose/position/{axis}": (now, place[i]) for i, axis in enumerate("xy")}
-            self.signals |= {f"{base}/pose/pose/orientation/z": (now, np.sin(place[2] / 2))}
-            self.signals |= {f"{base}/pose/pose/orientation/w": (now, np.cos(place[2] / 2))}
-            self.signals |= {f"{base}/twist/twist/linear/x": (now, place[3])}
-            self.signals |= {f"{base}/twist/twist/angular/z": (now, place[4])}
-
-    def moved(self, x, y, yaw, linear, angular):
-        return x + linear * np.cos(yaw) * STEP, y + linear * np.sin(yaw) * STEP, yaw + angular * STEP
-
-    def path(self, commands):
-        x = y = yaw = 0.0
-        rows = []
-        for now in np.arange(0.0, END, STEP):
-            v, w = commands(now)
-            rows.append((x, y, yaw, v, w))
-            x, y, yaw = self.moved(x, y, yaw, v, w)
-        return rows
-
-    def signal(self, name):
-        times, values = self.signals.get(name, (np.empty(0), np.empty(0)))
-        return Signal(np.round(np.asarray(times) * 1e9).astype(np.int64), np.asarray(values, dtype=float))
-
-
-def wrapped(angle):
-    return np.arctan2(np.sin(angle), np.cos(angle))
-
-
-def bearing(h):
-    return np.arctan2(h.aside, h.ahead)
-
-
-def distance(h):
-    return np.hypot(h.ahead, h.aside)
-
-
-def speed_of(length, least=0.0, most=0.8, gain=1.5):
-    return float(np.clip(gain * length, least, most))
-
-
-def place(h, begins=GAP):
-    """Return where the place behind the robot in front is, as seen by the follower."""
-    return (
-        h.front_x + begins - GAP * np.cos(h.front_heading) - h.x,
-        h.front_y - GAP * np.sin(h.front_heading) - h.y,
-    )
+from gz_course.tests.exercises.convoys import (
+    CHECKS,
+    FITS,
+    GAP,
+    Run,
+    bearing,
+    distance,
+    place,
+    rule,
+    speed_of,
+    told,
+    wrapped,
+)
 
 
 def place_ahead(h, begins):
     x, y = place(h, begins)
     return np.cos(h.heading) * x + np.sin(h.heading) * y
-
-
-def rule(speed=lambda h: speed_of(distance(h) - GAP), angle=lambda h: wrapped(bearing(h) - h.heading)):
-    return lambda h: (speed(h), float(np.clip(2.0 * angle(h), -1.5, 1.5)))
-
-
-def told(rule, about, delay=1):
-    heard = FITS["heard"](Run(rule, delay), "robot2", "robot1")
-    return FITS[about](heard)
 
 
 @pytest.mark.parametrize("delay", [0, 1, 2])
@@ -151,7 +77,7 @@ def test_a_wrong_angle_is_explained(angle, words):
 def test_a_follower_that_sends_too_little_is_not_judged():
     run = Run(rule())
     run.signals = {name: (times[:5], values[:5]) for name, (times, values) in run.signals.items()}
-    assert FITS["heard"](run, "robot2", "robot1") == [] and FITS["heard"](run, "robot3", "robot2") == []
+    assert FITS.heard(run, "robot2", "robot1") == [] and FITS.heard(run, "robot3", "robot2") == []
 
 
 @pytest.mark.parametrize(
@@ -174,7 +100,7 @@ def test_how_robots_stand_instead_of_in_a_row(places, words):
         for axis in "xy"
     }
     recording = SimpleNamespace(signal=lambda name: Signal(np.zeros(1), np.array([float(values[name])])))
-    said = CHECKS["_misplaced"](recording, names)
+    said = CHECKS.convoy_rows.misplaced(recording, names)
     assert words in said and bool(words) == bool(said)
 
 
@@ -187,8 +113,8 @@ def test_how_robots_stand_instead_of_in_a_row(places, words):
     ],
 )
 def test_a_name_below_the_namespace_of_a_follower(topic, words):
-    assert words in CHECKS["_below_its_namespace"](topic, "robot2", ["/robot1/odom", "/robot2/odom"])
-    assert "write" not in CHECKS["_below_its_namespace"]("/robot2/robot5/odom", "robot2", ["/robot1/odom"])
+    assert words in CHECKS._below_its_namespace(topic, "robot2", ["/robot1/odom", "/robot2/odom"])
+    assert "write" not in CHECKS._below_its_namespace("/robot2/robot5/odom", "robot2", ["/robot1/odom"])
 
 
 @pytest.mark.parametrize(
@@ -224,13 +150,13 @@ def said_of_a_bridge(node, topic, gz_topic):
     }  # fmt: skip
     facts = {"bridges": [bridge], "launch": {"bridges_started": [{"node": node}]}}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
-    return CHECKS["own_topics"](recording, {}).explanation
+    return CHECKS.own_topics(recording, {}).explanation
 
 
 def seen_elsewhere(angle):
     """Return what is said of a follower that never drives ahead, and turns to one side after another."""
     run = Run(lambda h: (0.0, float(np.clip(2.0 * wrapped(angle(h)), -1.5, 1.5))))
-    return FITS["seen_elsewhere"](FITS["heard"](run, "robot2", "robot1"))
+    return FITS.seen_elsewhere(FITS.heard(run, "robot2", "robot1"))
 
 
 def test_a_follower_that_looks_elsewhere_and_does_not_drive():
@@ -254,9 +180,9 @@ def test_a_speed_that_is_a_sum():
 
 def test_commands_that_come_too_seldom():
     signal = Signal(np.arange(0, 7_000_000_000, 1_000_000_000), np.zeros(7))
-    assert "every 1.0 s only" in CHECKS["_too_seldom"](SimpleNamespace(signal=lambda name: signal), "robot2")
+    assert "every 1.0 s only" in CHECKS.follower_ends.too_seldom(SimpleNamespace(signal=lambda name: signal), "robot2")
     often = Signal(np.arange(0, 7_000_000_000, 100_000_000), np.zeros(70))
-    assert CHECKS["_too_seldom"](SimpleNamespace(signal=lambda name: often), "robot2") == ""
+    assert CHECKS.follower_ends.too_seldom(SimpleNamespace(signal=lambda name: often), "robot2") == ""
 
 
 def follower(node="/robot2/follower", front="/robot1/odom"):
@@ -268,7 +194,7 @@ def follower(node="/robot2/follower", front="/robot1/odom"):
     ]
     facts = {"endpoints": ends, "launch": {}}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {}, lines=lambda entity: [])
-    return CHECKS["listens_to_the_one_in_front"](recording, {})
+    return CHECKS.listens_to_the_one_in_front(recording, {})
 
 
 def test_names_of_followers_and_of_what_they_hear():
@@ -298,17 +224,17 @@ def test_a_robot_that_begins_turned_is_not_in_its_row():
             facts=lambda: {},
         )
 
-    assert CHECKS["in_a_row"](recorded(0.0), {}).passed
-    assert "-Y of create turn a robot" in CHECKS["in_a_row"](recorded(3.14), {}).explanation
+    assert CHECKS.in_a_row(recorded(0.0), {}).passed
+    assert "-Y of create turn a robot" in CHECKS.in_a_row(recorded(3.14), {}).explanation
 
 
 def test_a_field_that_the_robot_does_not_obey():
     run = Run(rule(lambda h: 0.0))
-    assert FITS["ORIGINS"]["sideways"](run, "robot2") == ""
+    assert FITS.follower_origins.sideways(run, "robot2") == ""
     run.signals["topics/robot2/cmd_vel/linear/y"] = (np.arange(3.0), np.full(3, 0.4))
-    assert "it sends linear.y and no linear.x" in FITS["ORIGINS"]["sideways"](run, "robot2")
+    assert "it sends linear.y and no linear.x" in FITS.follower_origins.sideways(run, "robot2")
     run.signals["topics/robot2/cmd_vel/linear/x"] = (np.arange(3.0), np.full(3, 0.4))
-    assert FITS["ORIGINS"]["sideways"](run, "robot2") == ""
+    assert FITS.follower_origins.sideways(run, "robot2") == ""
 
 
 def test_from_where_on_a_follower_drives():
@@ -334,7 +260,7 @@ def test_from_where_on_a_follower_drives():
 def test_types_and_qualities_that_do_not_meet(end, words):
     kind, topic, type_, reliability, durability = end
     facts = {"node": "/robot2/follower", "kind": kind, "topic": topic, "type": type_}
-    said = CHECKS["ENDS"]["unheard"](
+    said = CHECKS.follower_ends.unheard(
         [facts | {"reliability": reliability, "durability": durability}], "robot2", "robot1"
     )
     assert words in said and bool(words) == bool(said)
@@ -343,7 +269,7 @@ def test_types_and_qualities_that_do_not_meet(end, words):
 def test_a_follower_that_soon_falls_silent():
     def published(count):
         signal = Signal(np.arange(0, count * 100_000_000, 100_000_000), np.zeros(count))
-        return CHECKS["_few"](SimpleNamespace(signal=lambda name: signal), "robot2")
+        return CHECKS.follower_ends.few(SimpleNamespace(signal=lambda name: signal), "robot2")
 
     assert "publishes 1 command only" in published(1) and published(0) == published(40) == ""
 
@@ -355,12 +281,12 @@ def test_only_the_last_robot_has_no_follower():
     facts = {"endpoints": ends, "launch": {}}
     given = {"trial_parameters": '{"parameters": {"robots": "3"}}'}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: given, lines=lambda entity: [])
-    assert "only the last robot, robot3" in CHECKS["listens_to_the_one_in_front"](recording, {}).explanation
+    assert "only the last robot, robot3" in CHECKS.listens_to_the_one_in_front(recording, {}).explanation
 
 
 def test_what_a_follower_does_while_it_falls_behind():
-    slow = FITS["heard"](Run(rule(lambda h: 0.2 + 0.01 * np.sin(h.x))), "robot2", "robot1")
-    assert "its speed is about 0.2" in FITS["ORIGINS"]["behind"](slow)
-    beside = FITS["heard"](Run(lambda h: (0.3, 0.9)), "robot2", "robot1")
-    assert "rad beside its own direction" in FITS["ORIGINS"]["behind"](beside)
-    assert FITS["ORIGINS"]["behind"](FITS["heard"](Run(rule()), "robot2", "robot1")) == ""
+    slow = FITS.heard(Run(rule(lambda h: 0.2 + 0.01 * np.sin(h.x))), "robot2", "robot1")
+    assert "its speed is about 0.2" in FITS.follower_origins.behind(slow)
+    beside = FITS.heard(Run(lambda h: (0.3, 0.9)), "robot2", "robot1")
+    assert "rad beside its own direction" in FITS.follower_origins.behind(beside)
+    assert FITS.follower_origins.behind(FITS.heard(Run(rule()), "robot2", "robot1")) == ""

@@ -1,14 +1,12 @@
 """What is said about a cart that parks wrongly: the misconception, from the distances and the commands."""
 
-import runpy
+from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from gz_course.grader.exercise.exercise import course_root
-
-NAMES = runpy.run_path(str(course_root() / "exercises/12_debugging/misconceptions.py"))
+NAMES = import_module("gz_course.exercises.12_debugging.grading.misconceptions")
 MOUNT = (-0.2, 0.0, 0.19)
 TRUTH = np.linspace(3.0, 1.0, 40)
 DISTANCE = 1.0 + 2.0 * np.exp(-np.linspace(0.0, 5.0, 60))
@@ -37,7 +35,7 @@ def driven(distance, left, gain=1.5, fastest=0.6):
     ],
 )
 def test_the_place_of_the_lidar(seen, sign, words):
-    found = NAMES["of_a_mount"](seen, MOUNT, sign)
+    found = NAMES.of_a_mount(seen, MOUNT, sign)
     assert words in found and bool(words) == bool(found)
 
 
@@ -62,7 +60,7 @@ def test_the_place_of_the_lidar(seen, sign, words):
     ],
 )
 def test_the_distance_to_the_wall(measured, words):
-    found = NAMES["of_a_distance"](measured, TRUTH[: len(measured)], MOUNT[0])
+    found = NAMES.of_a_distance(measured, TRUTH[: len(measured)], MOUNT[0])
     assert words in found and bool(words) == bool(found)
 
 
@@ -95,7 +93,7 @@ def test_the_distance_to_the_wall(measured, words):
     ],
 )
 def test_the_commands(given, words):
-    found = NAMES["of_a_driver"](*given)
+    found = NAMES.of_a_driver(*given)
     assert words in found and bool(words) == bool(found), found
 
 
@@ -105,21 +103,21 @@ def test_the_commands(given, words):
 )
 def test_commands_that_end_before_the_run(last, speed, words):
     held = [{"line": 38, "code": "if left > 0.1:"}]
-    found = NAMES["of_an_end"](9e9, last, speed, held)
+    found = NAMES.of_an_end(9e9, last, speed, held)
     assert words in found and bool(words) == bool(found) == ("`if left > 0.1:` in line 38" in found)
 
 
 def test_a_lidar_that_is_turned():
-    assert "by 3.14 rad about z (--yaw)" in NAMES["of_a_turned_mount"]([0.0, 0.0, 1.0])
-    assert "by -0.20 rad about y (--pitch)" in NAMES["of_a_turned_mount"]([0.0, -0.1, 0.0])
+    assert "by 3.14 rad about z (--yaw)" in NAMES.of_a_turned_mount([0.0, 0.0, 1.0])
+    assert "by -0.20 rad about y (--pitch)" in NAMES.of_a_turned_mount([0.0, -0.1, 0.0])
 
 
 @pytest.mark.parametrize(
     ("sends", "takes", "found"), [("/sensors/wall", "/sensor/wall", True), ("/sensors/wall", "/robot/wall", False)]
 )
 def test_names_that_are_spelled_differently(sends, takes, found):
-    names = runpy.run_path(str(course_root() / "exercises/12_debugging/names.py"))
-    assert bool(names["of_a_spelling"](sends, takes)) == found
+    names = import_module("gz_course.exercises.12_debugging.grading.names")
+    assert bool(names.of_a_spelling(sends, takes)) == found
 
 
 @pytest.mark.parametrize(
@@ -129,8 +127,8 @@ def test_names_that_are_spelled_differently(sends, takes, found):
 def test_a_distance_that_is_not_renewed(driven, ends_at, found):
     times = np.arange(0.0, ends_at, 0.05)
     distance, speed = np.full(len(times), 3.7), np.where(times < driven, 0.6, 0.0)
-    assert ("is not renewed" in NAMES["of_kept_distances"](times * 1e9, distance, speed, 1.0)) == found
-    assert NAMES["of_kept_distances"](times * 1e9, np.full(len(times), 1.0), speed, 1.0) == ""
+    assert ("is not renewed" in NAMES.of_kept_distances(times * 1e9, distance, speed, 1.0)) == found
+    assert NAMES.of_kept_distances(times * 1e9, np.full(len(times), 1.0), speed, 1.0) == ""
 
 
 @pytest.mark.parametrize(
@@ -148,7 +146,7 @@ def test_a_distance_that_is_not_renewed(driven, ends_at, found):
     ],
 )
 def test_a_remapping_that_joins_nothing(remapping, words):
-    checks = runpy.run_path(str(course_root() / "exercises/12_debugging/checks.py"))
+    checks = import_module("gz_course.exercises.12_debugging.grading.checks")
     each = {"type": "sensor_msgs/msg/Range", "reliability": "RELIABLE", "durability": "VOLATILE"}
     ends = [
         each | {"kind": "publisher", "node": "/sensors/ranger", "topic": "/sensors/wall"},
@@ -156,31 +154,31 @@ def test_a_remapping_that_joins_nothing(remapping, words):
     ]
     place = dict(zip(("namespace", "from", "to"), remapping, strict=True))
     facts = {"endpoints": ends, "remappings": [place | {"file": "bringup.launch.py", "line": 42}]}
-    found = checks["same_topic"](SimpleNamespace(facts=lambda: facts), {})
+    found = checks.same_topic(SimpleNamespace(facts=lambda: facts), {})
     assert not found.passed and words in found.explanation, found.explanation
 
 
-CHECKS = runpy.run_path(str(course_root() / "exercises/12_debugging/checks.py"))
+CHECKS = import_module("gz_course.exercises.12_debugging.grading.checks")
 
 
 @pytest.mark.parametrize(("stamps", "words"), [([0, 0], "does not set header.stamp"), ([0, 1], ""), ([], "")])
 def test_distances_without_a_time(stamps, words):
     recording = SimpleNamespace(signal=lambda name: SimpleNamespace(values=np.array(stamps)))
-    found = CHECKS["_why_stale"](recording)
+    found = CHECKS._why_stale(recording)
     assert words in found and bool(words) == bool(found)
 
 
 def test_a_driver_whose_commands_have_another_name():
     end = {"kind": "publisher", "type": "geometry_msgs/msg/Twist", "topic": "/model/robot/cmd_vel", "node": "/driver"}
     recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
-    finding = CHECKS["all_alive"](recording, {})
+    finding = CHECKS.all_alive(recording, {})
     assert "/driver publishes its commands on /model/robot/cmd_vel" in finding.measured
 
 
 def test_a_driver_whose_commands_are_in_its_namespace():
     end = {"kind": "publisher", "type": "geometry_msgs/msg/Twist", "topic": "/a/cmd_vel", "node": "/a/driver"}
     recording = SimpleNamespace(facts=lambda: {"endpoints": [end], "launch": {}}, lines=lambda entity: [])
-    assert "lives in the namespace /a" in CHECKS["all_alive"](recording, {}).explanation
+    assert "lives in the namespace /a" in CHECKS.all_alive(recording, {}).explanation
 
 
 BRIDGE = {
@@ -203,14 +201,14 @@ BRIDGE = {
 )
 def test_names_of_the_commands_that_are_exchanged(gz_topic, words):
     recording = SimpleNamespace(facts=lambda: {"bridges": [BRIDGE | {"gz_topic": gz_topic}]})
-    assert words in CHECKS["commands_go_to_gazebo"](recording, {}).measured
+    assert words in CHECKS.commands_go_to_gazebo(recording, {}).measured
 
 
 def test_a_direction_that_does_not_exist():
     error = "/submission/bridge.yaml:16: the direction 'ROS_TO_GAZEBO' is none of BIDIRECTIONAL"
     line = SimpleNamespace(text=f"[parameter_bridge-2] [ERROR] [1.0] [ros_gz_bridge]: {error}")
     recording = SimpleNamespace(facts=lambda: {"bridges": []}, lines=lambda entity: [line])
-    finding = CHECKS["commands_go_to_gazebo"](recording, {})
+    finding = CHECKS.commands_go_to_gazebo(recording, {})
     assert "bridge.yaml, line 16: the direction 'ROS_TO_GAZEBO' is none of" in finding.explanation
 
 
@@ -219,7 +217,7 @@ def test_a_direction_that_does_not_exist():
 )
 def test_scans_that_go_the_wrong_way(direction, words):
     wrong = BRIDGE | {"ros_topic": "/scan", "gz_topic": "/lidar/scan", "direction": direction}
-    finding = CHECKS["scans_are_heard"](SimpleNamespace(facts=lambda: {"bridges": [wrong]}), {})
+    finding = CHECKS.scans_are_heard(SimpleNamespace(facts=lambda: {"bridges": [wrong]}), {})
     assert not finding.passed and words in finding.measured
 
 
@@ -244,7 +242,7 @@ def test_a_ranger_on_the_wall_clock(distances, elsewhere, words):
         facts=lambda: {"endpoints": ends, "programs": [place]},
         signal=lambda name: SimpleNamespace(values=np.array(distances)),
     )
-    finding = CHECKS["simulated_time"](recording, {})
+    finding = CHECKS.simulated_time(recording, {})
     assert not finding.passed and words in finding.explanation, finding.explanation
 
 
@@ -254,7 +252,7 @@ def test_a_ranger_on_the_wall_clock_that_takes_scans_of_any_age():
     suspect = {"file": "ranger_node.py", "line": 9, "about": "any_age", "said": "the limit is too large"}
     facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place], "suspects": [suspect]}
     recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([1.0])))
-    assert "switched off: ranger_node.py, line 9: the limit" in CHECKS["simulated_time"](recording, {}).explanation
+    assert "switched off: ranger_node.py, line 9: the limit" in CHECKS.simulated_time(recording, {}).explanation
 
 
 def test_a_ranger_that_does_not_get_the_simulated_time_of_its_action():
@@ -262,24 +260,22 @@ def test_a_ranger_that_does_not_get_the_simulated_time_of_its_action():
     place = {"file": "bringup.launch.py", "line": 38, "program": "ranger_node.py", "sim_time": True, "mentioned": True}
     facts = {"endpoints": [each | {"kind": "publisher", "node": "/ranger"}], "programs": [place]}
     recording = SimpleNamespace(facts=lambda: facts, signal=lambda name: SimpleNamespace(values=np.array([])))
-    assert (
-        "line 38: use_sim_time is mentioned in this action, but" in CHECKS["simulated_time"](recording, {}).explanation
-    )
+    assert "line 38: use_sim_time is mentioned in this action, but" in CHECKS.simulated_time(recording, {}).explanation
     place["mentioned"] = False
-    assert CHECKS["simulated_time"](recording, {}).explanation == ""
+    assert CHECKS.simulated_time(recording, {}).explanation == ""
 
 
 def test_a_suspect_is_that_of_its_file():
     place = {"line": 7, "about": "age", "said": "turned"}
     facts = {"suspects": [place | {"file": "ranger_node.py"}, place | {"file": "driver_node.py", "about": "hidden"}]}
     recording = SimpleNamespace(facts=lambda: facts)
-    assert CHECKS["_suspects"](recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
-    assert CHECKS["_suspects"](recording, "driver_node.py", "age") == ""
+    assert CHECKS._suspects(recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
+    assert CHECKS._suspects(recording, "driver_node.py", "age") == ""
 
 
 def test_a_simulator_that_ends_by_itself_has_run():
     recording = SimpleNamespace(facts=lambda: {"launch": {"simulators": [{"ran": False}]}}, ended_s=4.0)
-    assert "ended by itself after 4.0 s" in CHECKS["time_runs"](recording, {}).measured
+    assert "ended by itself after 4.0 s" in CHECKS.time_runs(recording, {}).measured
 
 
 @pytest.mark.parametrize(
@@ -290,7 +286,7 @@ def test_a_driver_that_publishes_nothing(said, words):
     facts = {"slips": [{"file": "driver_node.py", "line": 3, "said": said}]}
     numbers = {"topics/wall/range": [1.0] * 8, "topics/cmd_vel/count": []}
     recording = SimpleNamespace(facts=lambda: facts, signal=numbers.get, lines=lambda entity: [])
-    found = CHECKS["_why_still"](recording)
+    found = CHECKS._why_still(recording)
     assert found.startswith("the driver got 8 distances and published no command")
     assert ("one of its callbacks hangs" in found) == bool(words)
 
@@ -300,7 +296,7 @@ def test_a_ranger_that_publishes_nothing():
     recording = SimpleNamespace(
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: []
     )
-    assert "before its publish() stand `if ahead:` in line 9" in CHECKS["_why_still"](recording)
+    assert "before its publish() stand `if ahead:` in line 9" in CHECKS._why_still(recording)
 
 
 def test_what_the_ranger_warned_of_is_said_first():
@@ -309,18 +305,18 @@ def test_what_the_ranger_warned_of_is_said_first():
     recording = SimpleNamespace(
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: [line]
     )
-    assert "on /wall; it warned: no frame for the scan" in CHECKS["_why_still"](recording)
+    assert "on /wall; it warned: no frame for the scan" in CHECKS._why_still(recording)
 
 
 def test_a_world_without_the_folder_of_the_launch_file():
     error = "world file 'depot.sdf' was not found as a path"
     facts = {"launch": {"simulators": [{"ran": False, "error": error}]}}
-    finding = CHECKS["time_runs"](SimpleNamespace(facts=lambda: facts, ended_s=0.0, properties=lambda name: {}), {})
-    assert "it lies beside the launch file" in finding.explanation
+    finding = CHECKS.time_runs(SimpleNamespace(facts=lambda: facts, ended_s=0.0, properties=lambda name: {}), {})
+    assert "it lies in worlds, beside the launch file" in finding.explanation
 
 
 def test_a_program_that_ends_itself():
     ends = [{"file": "driver_node.py", "line": 45, "said": "`raise SystemExit` in drive() ends the program"}]
     launch = {"ended_early": [{"program": "driver_node.py", "code": 0}]}
     recording = SimpleNamespace(facts=lambda: {"launch": launch, "own_ends": ends}, lines=lambda entity: [])
-    assert "driver_node.py, line 45: `raise SystemExit`" in CHECKS["all_alive"](recording, {}).explanation
+    assert "driver_node.py, line 45: `raise SystemExit`" in CHECKS.all_alive(recording, {}).explanation

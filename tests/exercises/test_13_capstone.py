@@ -1,7 +1,6 @@
 """What is wrong with how a robot explored, or with what its map leaves out."""
 
-import runpy
-from pathlib import Path
+from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,9 +9,8 @@ import pytest
 from gz_course.grader.record.reading import Signal
 from gz_course.grader.score.floor import Grid, Shapes
 
-FOLDER = Path(__file__).parents[2] / "exercises/13_capstone"
-DRIVING = SimpleNamespace(**runpy.run_path(str(FOLDER / "driving.py")))
-ARRANGED = SimpleNamespace(**runpy.run_path(str(FOLDER / "arrangements.py")))
+DRIVING = import_module("gz_course.exercises.13_capstone.grading.driving")
+ARRANGED = import_module("gz_course.exercises.13_capstone.grading.arrangements")
 NOW = np.arange(0.0, 36.0, 0.2)
 
 
@@ -218,19 +216,19 @@ def test_an_origin_that_is_something_else(x, y, words):
 
 
 def test_scattered_hits_do_not_explain_the_walls_of_a_map(monkeypatch):
-    checks = runpy.run_path(str(FOLDER / "checks.py"))
+    checks = import_module("gz_course.exercises.13_capstone.grading.checks")
     said = np.full((80, 100), -1.0)
     said[40, 10:60] = 100
     wall = np.stack([np.arange(10, 60) / 10 - 4.95, np.full(50, 0.05)], 1)
     everywhere = np.concatenate([wall, *(wall + np.array([0, 0.4 * row]) for row in range(1, 8))])
-    known = checks["drawn_elsewhere"].__globals__
+    known = checks.drawn_elsewhere.__globals__
     monkeypatch.setitem(known, "grid", lambda *given: (said, 1.0))
     monkeypatch.setitem(known, "scans", lambda *given: None)
     monkeypatch.setitem(known, "hits", lambda *given: np.array([[4.0, 3.0]]))
     recording = SimpleNamespace(arrays=lambda name: (np.zeros(1), []), facts=lambda: {})
     for points, words in ((wall, "a mistake"), (everywhere, "")):
         monkeypatch.setitem(known, "misplaced", lambda scan, points=points: [("a mistake", points)])
-        assert checks["drawn_elsewhere"](recording) == words
+        assert checks.drawn_elsewhere(recording) == words
 
 
 def test_cells_by_another_factor():
@@ -245,20 +243,20 @@ def test_cells_by_another_factor():
     [(100, "are occupied in the map: they are free"), (50, "values such as 50"), (-1, "all cells"), (0, "")],
 )
 def test_a_map_by_which_no_robot_can_drive(monkeypatch, value, words):
-    checks = runpy.run_path(str(FOLDER / "checks.py"))
-    known = checks["not_as_it_was_seen"].__globals__
+    checks = import_module("gz_course.exercises.13_capstone.grading.checks")
+    known = checks.not_as_it_was_seen.__globals__
     passed = np.zeros((80, 100), dtype=int)
     passed[20:60, 20:60] = 9
     monkeypatch.setitem(known, "walls_are_right", lambda *given: True)
     monkeypatch.setitem(known, "hits", lambda *given: np.empty((0, 2)))
     monkeypatch.setitem(known, "along", lambda *given: passed)
-    said = checks["not_as_it_was_seen"](recording(), np.where(passed, value, -1.0), SimpleNamespace(ends=3.0, hit=None))
+    said = checks.not_as_it_was_seen(recording(), np.where(passed, value, -1.0), SimpleNamespace(ends=3.0, hit=None))
     assert words in said if words else said == ""
 
 
 def test_walls_in_a_wrong_place_are_no_walls_known_by_heart(monkeypatch):
-    checks = runpy.run_path(str(FOLDER / "checks.py"))
-    known = checks["known_before"].__globals__
+    checks = import_module("gz_course.exercises.13_capstone.grading.checks")
+    known = checks.known_before.__globals__
     said = np.full((80, 100), -1.0)
     said[10, 10:90] = 100
     hit = np.stack([np.arange(10, 90) / 10 - 4.95, np.full(80, 2.05)], 1)
@@ -268,7 +266,7 @@ def test_walls_in_a_wrong_place_are_no_walls_known_by_heart(monkeypatch):
     run = SimpleNamespace(arrays=lambda name: (np.zeros(1), []))
     for points, by_heart in ((hit, False), (hit[:20], True)):
         monkeypatch.setitem(known, "hits", lambda *given, points=points: points)
-        assert bool(checks["known_before"](run)) == by_heart
+        assert bool(checks.known_before(run)) == by_heart
 
 
 def test_a_map_that_is_moved_by_the_start_of_the_robot():
@@ -343,18 +341,18 @@ def test_commands_that_end_although_something_is_near():
 
 @pytest.mark.parametrize(("shown", "words"), [(0, "make the cells in which they end free again"), (100, ""), (-1, "")])
 def test_a_map_without_the_walls_that_were_hit(shown, words):
-    module = runpy.run_path(str(FOLDER / "shown.py"))
+    module = import_module("gz_course.exercises.13_capstone.grading.shown")
     hit, passed = np.zeros((80, 100), dtype=bool), np.zeros((80, 100), dtype=bool)
     hit[20, 20:60], passed[21:60, 20:60] = True, True
     said = np.where(passed, 0.0, np.where(hit, shown, -1.0))
-    found = module["wrongly"](SimpleNamespace(facts=lambda: {}), said, passed, hit)
+    found = module.wrongly(SimpleNamespace(facts=lambda: {}), said, passed, hit)
     assert words in found if words else found == ""
 
 
 @pytest.mark.parametrize(("speed", "found"), [(0.3, True), (0.5, False)])
 def test_a_robot_that_drives_without_a_way(speed, found):
-    module = runpy.run_path(str(FOLDER / "driving.py"))
+    module = import_module("gz_course.exercises.13_capstone.grading.driving")
     place = {"line": 7, "about": "blind", "said": "linear.x is 0.3 where the robot has no way"}
     signal = SimpleNamespace(times=np.arange(5) * 10**9, values=np.full(5, speed))
     drive = SimpleNamespace(facts=lambda: {"suspects": [place]}, signal=lambda name: signal)
-    assert bool(module["without_a_way"](drive, 3.5e9)) == found
+    assert bool(module.without_a_way(drive, 3.5e9)) == found

@@ -1,16 +1,14 @@
 """Maps that are drawn by old poses, and mistakes between which more maps decide."""
 
-import runpy
-from pathlib import Path
-from types import SimpleNamespace
+from importlib import import_module
 
 import numpy as np
 import pytest
 
 from gz_course.grader.score.floor import Scans, hits
 
-FOLDER = Path(__file__).parents[2] / "exercises/13_capstone"
-LAGS, RIVALS = (SimpleNamespace(**runpy.run_path(str(FOLDER / name))) for name in ("lags.py", "rivals.py"))
+LAGS = import_module("gz_course.exercises.13_capstone.grading.lags")
+RIVALS = import_module("gz_course.exercises.13_capstone.grading.rivals")
 
 
 def room(poses):

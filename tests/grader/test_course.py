@@ -145,7 +145,7 @@ def test_scoring_a_recording_of_an_exercise_that_is_gone(course, record):
 
 def spoilt(root, folder, old, new):
     shutil.copytree(root / "exercises", folder / "exercises")
-    manifest = folder / "exercises/03_teleop/exercise.toml"
+    manifest = folder / "exercises/03_teleop/grading/exercise.toml"
     text = manifest.read_text()
     assert old in text
     manifest.write_text(text.replace(old, new))
@@ -155,7 +155,7 @@ def spoilt(root, folder, old, new):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('title = "Drive', 'titel = "Drive', ["exercise.toml", "title"]),
+        ('file = "teleop', 'flie = "teleop', ["exercise.toml", "file"]),
         pytest.param('bridge = "bridge.yaml"', 'bridge = "bridge.yml"', ["bridge.yml"], marks=pytest.mark.proof),
         pytest.param('world = "lidar_room.sdf"', 'world = "lidar_rom.sdf"', ["lidar_rom.sdf"], marks=pytest.mark.proof),
         pytest.param('robot = "robot"', 'robot = "robbi"', ["robbi", "robot"], marks=pytest.mark.proof),

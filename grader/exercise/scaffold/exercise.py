@@ -12,11 +12,12 @@ from pathlib import Path
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import exercise_names
+from gz_course.grader.exercise.grading import GRADING, MANIFEST
 
 TEMPLATE = Path(__file__).with_name("template")
 NAME = re.compile(r"[0-9]{2}_[a-z][a-z0-9]*(_[a-z0-9]+)*")
 LONGEST_NAME = 60
-PUBLIC = ("exercise.toml", "bridge.yaml")
+PUBLIC = {"README.md": "README.md", f"{GRADING}/{MANIFEST}": MANIFEST, "bridge.yaml": "bridge.yaml"}  # -> template
 ACCEPTED = ("own_style", "odometry")
 # A student's mistake -> the words of the solution it replaces, and their replacement.
 DEFECTS = {
@@ -84,7 +85,7 @@ def contents(name: str) -> tuple[dict[str, str], dict[str, str]]:
             text = text.replace(mark, value)
         return text
 
-    public = {plain: filled(plain) for plain in PUBLIC} | {file: filled("starter.py")}
+    public = {inside: filled(template) for inside, template in PUBLIC.items()} | {file: filled("starter.py")}
     solution = filled("solution.py")
     private = {file: solution, "expect.toml": filled("expect.toml")}
     private |= {f"accepted/{style}/{file}": filled(f"{style}.py") for style in ACCEPTED}

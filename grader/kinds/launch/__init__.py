@@ -1,8 +1,8 @@
 """`kind = "launch"`: the submission is a launch file, in Python, XML or YAML, that starts simulator, bridge and nodes.
 
 It is started with `ros2 launch`, in the folder that also holds what comes with the exercise (every file beside the
-student's, and of the folder `worlds`). The `parameters` of a trial are its arguments: `parameters = { paused = "true" }`
-is `paused:=true`.
+student's, and of the folder `worlds`). The `parameters` of a trial are its arguments:
+`parameters = { paused = "true" }` is `paused:=true`.
 """
 
 from __future__ import annotations

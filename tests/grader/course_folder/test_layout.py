@@ -37,6 +37,11 @@ def test_all_is_there_but_nothing_for_authors(mine):
     assert "`exercises/03_teleop/teleop_node.py`" in (mine / "README.md").read_text()
     assert (mine / CHAPTER).is_file() and not (mine / "chapters/README.md").exists()
     assert not (mine / "solutions").exists()
+    assert {path.name for path in (mine / "exercises/03_teleop").iterdir()} == {
+        "README.md",
+        "bridge.yaml",
+        "teleop_node.py",
+    }
 
 
 def test_newer_files_come_and_own_work_stays(mine, released):

@@ -49,7 +49,8 @@ def test_two_builds_are_the_same_and_hold_no_solution(built):
         names = packed.namelist() + source.getnames()
     parts = {part for name in names for part in Path(name).parts[:3]}
     assert not parts & {"solutions", "tests", ".ci"}
-    assert "gz_course/course/exercises/03_teleop/exercise.toml" in names
+    assert {f"gz_course/exercises/03_teleop/{name}" for name in ("README.md", "grading/exercise.toml")} <= set(names)
+    assert "gz_course/chapters/03_teleop/03_teleop.ipynb" in names
 
 
 def test_installed_from_the_file_it_grades_as_the_clone_does(built, root, tmp_path):

@@ -9,8 +9,6 @@ from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import course_root, exercise_names, find_exercise, load_exercise
 
 GOOD = """\
-title = "A title"
-summary = "What to do."
 file = "node.py"
 
 [run]
@@ -46,15 +44,30 @@ band = [0.5, 1.0]
 hint = "Do that."
 """
 
+TASK = """\
+# A title
+
+What to do.
+
+- First this.
+
+    then that
+
+## Points
+
+None.
+"""
+
 
 @pytest.fixture
 def folder(tmp_path):
-    """Write a manifest into `exercises/01_made` and return that folder."""
+    """Write a manifest and its task into `exercises/01_made` and return that folder."""
 
-    def write(text=GOOD, name="01_made"):
+    def write(text=GOOD, name="01_made", task=TASK):
         path = tmp_path / "exercises" / name
-        path.mkdir(parents=True, exist_ok=True)
-        (path / "exercise.toml").write_bytes(text if isinstance(text, bytes) else text.encode())
+        (path / "grading").mkdir(parents=True, exist_ok=True)
+        (path / "README.md").write_text(task)
+        (path / "grading/exercise.toml").write_bytes(text if isinstance(text, bytes) else text.encode())
         return path
 
     return write
@@ -63,6 +76,7 @@ def folder(tmp_path):
 def test_a_manifest_is_read(folder):
     exercise = load_exercise(folder())
     assert (exercise.name, exercise.title, exercise.file) == ("01_made", "A title", "node.py")
+    assert exercise.summary == "What to do.\n\n- First this.\n\n    then that"
     assert (exercise.duration, exercise.tick, exercise.max_score) == (8.0, 0.02, 100)
     assert exercise.starter == exercise.folder / "node.py"
     assert exercise.bridge == exercise.folder / "bridge.yaml"
@@ -93,10 +107,9 @@ def without(key):
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize("key", ["title", "summary", "file", "world", "robot", "bridge", "duration"])
+@pytest.mark.parametrize("key", ["file", "world", "robot", "bridge", "duration"])
 def test_a_missing_key_is_named_with_the_file(folder, key):
-    # The first `title` and so on are the exercise's own.
-    with pytest.raises(ManifestError, match=rf"01_made/exercise\.toml.*'{key}'"):
+    with pytest.raises(ManifestError, match=rf"01_made/grading/exercise\.toml.*'{key}'"):
         load_exercise(folder(without(key)))
 
 
@@ -122,9 +135,9 @@ def test_a_check_id_used_twice(folder):
         load_exercise(folder(GOOD.replace('id = "two"', 'id = "one"')))
 
 
-@pytest.mark.parametrize("text", ["title = ", b"title = '\xff\xfe'", "= 3", "[run", "a = 1\na = 2"])
+@pytest.mark.parametrize("text", ["file = ", b"file = '\xff\xfe'", "= 3", "[run", "a = 1\na = 2"])
 def test_what_is_not_toml(folder, text):
-    with pytest.raises(ManifestError, match=r"01_made/exercise\.toml: "):
+    with pytest.raises(ManifestError, match=r"01_made/grading/exercise\.toml: "):
         load_exercise(folder(text))
 
 
@@ -140,7 +153,6 @@ def test_what_is_not_toml(folder, text):
         ("tick = 0.02", "tick = -0.01", "tick"),
         ("tick = 0.02", 'tick = "fast"', "tick"),
         ('world = "empty.sdf"', "world = 3", "world"),
-        ('summary = "What to do."', "summary = 3", "summary"),
         ('file = "node.py"', "file = 3", "file"),
         ('file = "node.py"', 'file = "../elsewhere/node.py"', "file"),
         ('file = "node.py"', 'file = "node.py"\nfiles = ["../robot.sdf"]', "files"),
@@ -248,6 +260,21 @@ def test_the_hash_of_a_manifest_is_also_over_its_functions(folder):
     path = folder(GOOD.replace('kind = "change"', 'kind = "python"\nfunction = "checks.py:one"', 1))
     hashes = []
     for text in ("def one(): pass", "def one(): return 1"):
-        (path / "checks.py").write_text(text)
+        (path / "grading/checks.py").write_text(text)
         hashes.append(load_exercise(path).manifest_sha256)
     assert len({plain, *hashes}) == 3
+
+
+@pytest.mark.parametrize(
+    "task", ["", "A title\n\nWhat to do.\n", "# A title\n", "# \n\nWhat\n", "# A title\n\n## Points\n"]
+)
+def test_a_task_without_title_or_words_is_told_with_its_file(folder, task):
+    with pytest.raises(ManifestError, match=r"01_made/README\.md must begin with `# TITLE`"):
+        load_exercise(folder(task=task))
+
+
+def test_a_task_that_is_not_there_is_told(folder):
+    path = folder()
+    (path / "README.md").unlink()
+    with pytest.raises(ManifestError, match=r"01_made/README\.md cannot be read"):
+        load_exercise(path)

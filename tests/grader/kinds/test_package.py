@@ -27,7 +27,7 @@ def test_the_exercises_node_lies_in_a_sandbox_of_its_own_where_no_file_of_a_subm
     (solved / "given_node.py").write_text("raise SystemExit")
     found = plan(exercise, take_in(exercise, solved))
     assert found.program == "patrol_server.py"
-    assert found.beside[f"{APART}/given_node.py"] == (exercise.folder / "given_node.py").read_bytes()
+    assert found.beside[f"{APART}/given_node.py"] == (exercise.grading / "given_node.py").read_bytes()
     assert not any(name.startswith(APART) for name in found.files)
     assert f"{PACKAGE}/action/Patrol.action" in found.files.keys() & found.beside.keys()
     assert "patrol_server.py" not in found.beside

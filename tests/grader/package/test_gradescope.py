@@ -107,7 +107,7 @@ def test_a_submission_that_cannot_be_read(autograder):
 
 @pytest.mark.proof
 def test_a_fault_that_is_not_the_students(autograder, solved, tmp_path):
-    manifest = tmp_path / "source/course/exercises/03_teleop/exercise.toml"
+    manifest = tmp_path / "source/course/exercises/03_teleop/grading/exercise.toml"
     manifest.write_text(manifest.read_text().replace("lidar_room.sdf", "nowhere.sdf"))
     results = autograder({FILE: solved})
     assert results["extra_data"]["outcome"] == "infra"

@@ -73,8 +73,9 @@ def test_exercises_chapters_and_programs_are_complete(student, root):
     for half in ("exercises", "chapters"):
         names = {path.name for path in (root / half).iterdir() if path.is_dir() and any(path.iterdir())}
         assert {path.name for path in (student / half).iterdir()} == names
-    manifest = f"exercises/{NAME}/exercise.toml"
-    assert (student / manifest).read_bytes() == (root / manifest).read_bytes()
+    graders = f"exercises/{NAME}/grading/exercise.toml"
+    assert (student / ".grading" / graders).read_bytes() == (root / graders).read_bytes()
+    assert not list((student / "exercises").rglob("grading"))
     for name in ("LICENSE", "constraints.txt", "pyproject.toml", ".gitignore", "grader/course.py", "sim/gz/command.py"):
         assert (student / name).is_file(), name
     # Whatever the build takes along must be there, or `pip install` fails.
@@ -149,7 +150,7 @@ def test_traces_of_work_are_left_out(small, tmp_path):
         give_away(small / "exercises" / NAME / trace, text)
     assert release(small, tmp_path / "student") == [NAME]
     there = sorted(path.name for path in (tmp_path / "student/exercises" / NAME).rglob("*"))
-    assert there == ["bridge.yaml", "exercise.toml", FILE]
+    assert there == ["README.md", "bridge.yaml", FILE]
 
 
 def test_a_link_to_a_solution_is_refused(small, tmp_path):

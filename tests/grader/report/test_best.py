@@ -167,8 +167,8 @@ def test_grading_keeps_the_best_and_the_list_shows_it(course, root, tmp_path):
 def test_the_runs_stand_beside_the_exercises_wherever_one_is(tmp_path, monkeypatch):
     monkeypatch.delenv("COURSE_RUNS", raising=False)
     monkeypatch.delenv("COURSE_ROOT", raising=False)
-    (tmp_path / "exercises/01_x").mkdir(parents=True)
-    (tmp_path / "exercises/01_x/exercise.toml").touch()
+    (tmp_path / "exercises/01_x/grading").mkdir(parents=True)
+    (tmp_path / "exercises/01_x/grading/exercise.toml").touch()
     (tmp_path / "chapters/01_x").mkdir(parents=True)
     for folder, shown in ((".", "runs"), ("chapters/01_x", "../../runs"), ("exercises", "../runs")):
         monkeypatch.chdir(tmp_path / folder)

@@ -75,7 +75,7 @@ def test_the_terminal_says_the_same(graded, again):
 
 def test_a_manifest_that_has_changed_is_told(graded, course, root, tmp_path):
     shutil.copytree(root / "exercises", tmp_path / "course/exercises")
-    manifest = tmp_path / "course/exercises/03_teleop/exercise.toml"
+    manifest = tmp_path / "course/exercises/03_teleop/grading/exercise.toml"
     manifest.write_text(f"{manifest.read_text()}\n# A word more.\n")
     outcome = course("score", graded.recording, *wanted(tmp_path), COURSE_ROOT=str(tmp_path / "course"))
     sentence = "The manifest of 03_teleop has changed since this run"

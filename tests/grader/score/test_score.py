@@ -103,7 +103,7 @@ def test_a_check_that_names_the_misconception_says_more_than_that_nothing_was_pu
     )
     spec = CheckSpec("turn", "Turns once", 70, "python", "Hint.", {"function": "checks.py:named"})
     silent = record(truth(), facts={"listened": {"/count": "std_msgs/msg/Int32"}, "endpoints": [PUBLISHER]})
-    unnamed = dataclasses.replace(exercise, folder=tmp_path, checks=(spec,))
+    unnamed = dataclasses.replace(exercise, grading=tmp_path, checks=(spec,))
     assert score(silent, unnamed).diagnosis == "Your node has a publisher on /count but never published a message."
     spec = dataclasses.replace(spec, parameters=spec.parameters | {"why": "it jumps at pi"})
     named = dataclasses.replace(unnamed, checks=(spec,))

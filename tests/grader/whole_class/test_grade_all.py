@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -189,11 +190,10 @@ def test_interrupted_it_leaves_nothing_running(begin, tmp_path, running_in):
 
 
 def test_a_fault_of_the_exercise_costs_nobody_anything(course, hand_in, solved, short_course, tmp_path):
-    manifest = short_course / "exercises/03_teleop/exercise.toml"
     broken = tmp_path / "broken/exercises/03_teleop"
-    broken.mkdir(parents=True)
-    for path in manifest.parent.iterdir():
-        (broken / path.name).write_bytes(path.read_bytes().replace(b"lidar_room.sdf", b"no_such_world.sdf"))
+    shutil.copytree(short_course / "exercises/03_teleop", broken)
+    manifest = broken / "grading/exercise.toml"
+    manifest.write_text(manifest.read_text().replace("lidar_room.sdf", "no_such_world.sdf"))
     folder = hand_in({"jane.py": solved, "eve/x.txt": b""})
     outcome = course("grade-all", "03", folder, "--out", tmp_path / "out", COURSE_ROOT=str(tmp_path / "broken"))
     assert outcome.code == 3, outcome.output

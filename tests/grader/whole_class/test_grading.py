@@ -35,7 +35,7 @@ def endless(short_course, tmp_path):
     """An exercise that takes ten minutes."""
     copy = tmp_path / "course/exercises/03_teleop"
     shutil.copytree(short_course / "exercises/03_teleop", copy)
-    manifest = copy / "exercise.toml"
+    manifest = copy / "grading/exercise.toml"
     manifest.write_text(manifest.read_text().replace("duration = 0.5", f"duration = {ENDLESS}"))
     return copy
 

@@ -27,7 +27,8 @@ def test_a_new_exercise_verifies_as_it_is(tmp_path, course, clean):
     made = course("new", NEW, COURSE_ROOT=str(root))
     assert made.code == 0, made.output
     assert [line for line in made.stdout.splitlines() if line.startswith("exercises/")] == [
-        f"exercises/{NEW}/{name}" for name in ("exercise.toml", "bridge.yaml", "follow_the_wall_node.py")
+        f"exercises/{NEW}/{name}"
+        for name in ("README.md", "grading/exercise.toml", "bridge.yaml", "follow_the_wall_node.py")
     ]
     assert all(name in made.stdout for name in files_below(root))
     outcome = course("verify", NEW, COURSE_ROOT=str(root))
@@ -50,7 +51,7 @@ def test_both_halves_fit_together(tmp_path):
         compile((variant.folder / exercise.file).read_text(), variant.name, "exec")
         assert "@" not in (variant.folder / exercise.file).read_text()
     # The manifest explains itself: comments for its author.
-    assert (exercise.folder / "exercise.toml").read_text().count("#") > 5
+    assert exercise.manifest.read_text().count("#") > 5
     assert exercise.bridge.is_file()
 
 

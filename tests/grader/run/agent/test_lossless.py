@@ -79,8 +79,6 @@ BRIDGE = """
 """
 FRAMES = 6  # at 0, 0.2, ... 1.0 s
 MANIFEST = """
-title = "Look"
-summary = "Look."
 file = "look.py"
 [run]
 world = {world!r}
@@ -151,7 +149,9 @@ def course_folder(tmp_path):
     (exercise / "studio.sdf").write_text(WORLD.format(sensors=sensors))
     (exercise / "bridge.yaml").write_text(BRIDGE)
     (exercise / "look.py").write_text("")
-    (exercise / "exercise.toml").write_text(MANIFEST.format(world=str(exercise / "studio.sdf"), frames=FRAMES))
+    (exercise / "grading").mkdir()
+    (exercise / "README.md").write_text("# Look\n\nLook.\n")
+    (exercise / "grading/exercise.toml").write_text(MANIFEST.format(world=str(exercise / "studio.sdf"), frames=FRAMES))
     (tmp_path / "look.py").write_text(textwrap.dedent(LOOK))
     return tmp_path / "course"
 

@@ -67,7 +67,7 @@ def test_the_wheel_puts_ours_where_it_is_found_last():
     wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
     assert PUBLIC_NAMES in (SIM / "ros/prefix" / HOOK).read_text().splitlines()
     page = "docs/windows_and_mac.md"
-    assert set(wheel["only-include"]) == {"sim", "grader", "public", "exercises", "chapters", page}
+    assert set(wheel["only-include"]) == {"sim", "grader", "public", "exercises", ".grading", "chapters", page}
     names = {path.name for path in PUBLIC.iterdir() if path.name != "__pycache__"}
     assert names > {"gz", "launch", "launch_ros"}
     for name in names - {"gz_course"}:
