@@ -1,21 +1,26 @@
 """Checks that only this exercise needs: the world of the launch, the robot's description, and its joints."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
 
 from gz_course.grader.feedback.predictions.of_robots.driving import leans
 from gz_course.grader.feedback.predictions.of_robots.topics import few_joints, no_joint_states, why_not_carried
 from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import argument, deaths, launch_facts, logged_error, ran
-from gz_course.grader.score.robots import robot_of
+from gz_course.grader.score.robots import Robot, robot_of
 
 TURNED = 1.0  # [rad] by which a wheel turns at least
 DRIVEN = 0.3  # [m] on which it does
 PUBLISHER = "/robot_state_publisher"
 
 
-def world_runs(recording, parameters):
+def world_runs(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the simulator has the world of the argument, and runs."""
     wanted, called = argument(recording, "world", "yard.sdf")
     expected = f"{called}: the world {wanted}, running"
@@ -30,7 +35,7 @@ def world_runs(recording, parameters):
     return Finding(True, expected, f"{called} it ran {found['world']}")
 
 
-def taken_as_it_is(recording, parameters):
+def taken_as_it_is(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the simulator had nothing to warn of when the robot was created."""
     expected = "no warning of gz sim when the robot is created"
     warnings = launch_facts(recording).get("model_warnings", [])
@@ -44,7 +49,7 @@ def taken_as_it_is(recording, parameters):
     return Finding(False, expected, f"gz sim says: {shown(warnings[0], 300)}{more}", explanation=why)
 
 
-def _in_the_ground(robot):
+def _in_the_ground(robot: Robot | None) -> str:
     """Return which part of a robot that came in the ground is the lowest, and how high -z must lift it."""
     low = robot.lowest_link() if robot is not None else None
     if low is None or low.lowest >= 0:
@@ -55,7 +60,7 @@ def _in_the_ground(robot):
     )
 
 
-def described(recording, parameters):
+def described(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if robot_state_publisher offers the description to the end, and follows simulated time."""
     expected = f"{PUBLISHER} with /robot_description and use_sim_time, to the end"
     facts = recording.facts()
@@ -75,7 +80,7 @@ def described(recording, parameters):
     return Finding(True, expected, "so it was")
 
 
-def joints_move(recording, parameters):
+def joints_move(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the states of two joints arrive in ROS all the time, and transforms are made of them."""
     expected = "/joint_states with two wheels or more, and /tf, at least 10 times a second"
     least = 10 * (recording.ended_s - 0.5)

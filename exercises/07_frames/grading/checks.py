@@ -5,10 +5,15 @@ mount of the scanner in the simulated robot. Wrong points are compared with thos
 which are in `misconceptions.py`.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.true_pose import true_poses
 
@@ -51,17 +56,17 @@ class Scans:
     by_stamp: bool = True
 
 
-def values(recording, name):
+def values(recording: Recording, name: str) -> np.ndarray:
     return recording.signal(name).values
 
 
-def odom(recording, times):
+def odom(recording: Recording, times: np.ndarray) -> Frame:
     """Return the robot's true poses at times [s]; the frame odom is that of the world."""
     poses = true_poses(recording, times, ("x", "y", "z", "yaw"))
     return Frame(about_z(poses[:, 3]), poses[:, :3])
 
 
-def scans(recording):
+def scans(recording: Recording) -> Scans | None:
     """Return all scans of a recording; None if there are none."""
     arrived, rows = recording.arrays(f"{SCAN}/ranges")
     low, high, first, step, stamps = (
@@ -80,8 +85,9 @@ def scans(recording):
             hits.append((valid[ray], first[i] + ray * step[i]))
     if not kept:
         return None
-    hits = np.array(hits)
+    places = np.array(hits)
     poses = recording.poses("world/robot/scanner")
+    assert poses is not None
     count = len(kept)
     found = Scans(
         arrived=arrived[kept] / 1e9,
@@ -89,7 +95,7 @@ def scans(recording):
         rows=[rows[i] for i in kept],
         limits=np.stack([low[kept], high[kept]], -1),
         angles=np.stack([first[kept], step[kept]], -1),
-        hits=polar(hits[:, 0], hits[:, 1]),
+        hits=polar(places[:, 0], places[:, 1]),
         rays=np.array(rays),
         mount=mounted(poses.positions[-1], poses.quaternions[-1], count),
         points=np.full((count, 3), np.nan),
@@ -99,7 +105,7 @@ def scans(recording):
     return with_points(recording, found)
 
 
-def with_points(recording, found):
+def with_points(recording: Recording, found: Scans) -> Scans:
     """Give each scan the point with its stamp, or the one that came after it if only then nearly all are right.
 
     Who keeps a scan until its transform is there answers when the next one comes. Of several points for one scan, that
@@ -114,7 +120,7 @@ def with_points(recording, found):
     return best
 
 
-def assigned(recording, found, truth):
+def assigned(recording: Recording, found: Scans, truth: np.ndarray) -> list[Scans]:
     """Return the scans with the points that have their stamps, that came after them, and after the next one."""
     times = recording.signal(f"{TOPIC}/point/x").times / 1e9
     stamps = values(recording, f"{TOPIC}/header/stamp")
@@ -136,17 +142,17 @@ def assigned(recording, found, truth):
     return results
 
 
-def near(points, others, within):
+def near(points: np.ndarray, others: np.ndarray, within: float) -> np.ndarray:
     with np.errstate(invalid="ignore"):
         return np.linalg.norm(points - others, axis=-1) <= within
 
 
-def right(recording, found):
+def right(recording: Recording, found: Scans) -> np.ndarray:
     """Return the true points (n, 3) [m] in odom."""
     return odom(recording, found.stamps).of(found.mount.of(found.hits))
 
 
-def chosen(recording, found, turning):
+def chosen(recording: Recording, found: Scans, turning: bool) -> np.ndarray:
     """Return the numbers of the scans at which the robot turns, or does not, at a steady rate."""
     rate = recording.signal("truth/robot/angular_z")
     at = rate.times / 1e9
@@ -155,12 +161,12 @@ def chosen(recording, found, turning):
     return np.flatnonzero(steady & ((np.abs(around[1]) > TURNS) == turning))
 
 
-def places(recording, parameters):
+def places(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if nearly all points are where their hit was, at the scans in which the robot turns or does not."""
     expected = f"the nearest hit of each scan in odom, within {TOLERANCE * 100:.0f} cm"
     found = scans(recording)
-    which = [] if found is None else chosen(recording, found, parameters["turning"])
-    if not len(which):
+    which = np.zeros(0, dtype=int) if found is None else chosen(recording, found, parameters["turning"])
+    if found is None or not len(which):
         return Finding(False, expected, "no scan was sent")
     truth = right(recording, found)
     met = near(found.points, truth, TOLERANCE)[which]
@@ -192,12 +198,14 @@ def places(recording, parameters):
     return Finding(False, expected, measured, round(float(found.arrived[first]), 3), explanation=why)
 
 
-def several(recording, found):
+def several(recording: Recording, found: Scans) -> str:
     stamps = recording.signal(f"{TOPIC}/header/stamp")
     return other_hits.several(found.number, stamps.times, stamps.values)
 
 
-def otherwise_assigned(recording, found, truth, which, missing):
+def otherwise_assigned(
+    recording: Recording, found: Scans, truth: np.ndarray, which: np.ndarray, missing: np.ndarray
+) -> str:
     """Explain points whose stamps are not those of the scans: they are taken for the scans before which they came."""
     if missing.mean() < 0.5:
         return ""
@@ -210,16 +218,19 @@ def otherwise_assigned(recording, found, truth, which, missing):
     return ""
 
 
-def shown(point):
+def shown(point: np.ndarray) -> str:
     return "(" + ", ".join(f"{v:.2f}" for v in point) + ")"
 
 
-def explanation(recording, found, truth, which, bad, guess=True):
+def explanation(
+    recording: Recording, found: Scans, truth: np.ndarray, which: np.ndarray, bad: np.ndarray, guess: bool = True
+) -> str:
     """Return which misconceptions fit nearly all points that are wrong; empty if none does."""
     if len(bad) < FEWEST:
         return ""
     wrong = which[bad]
-    fitting, same = [], []
+    fitting: list[Any] = []
+    same: list[Any] = []
     with np.errstate(all="ignore"):
         for words, predicted in predictions(recording, found, truth):
             known = ~np.isnan(predicted[wrong, 0])
@@ -243,23 +254,23 @@ def explanation(recording, found, truth, which, bad, guess=True):
     return f"your points are {', or '.join(fitting[:2])}" if fitting[0] else ""
 
 
-def both_frames(recording, found):
+def both_frames(recording: Recording, found: Scans) -> Frame:
     """Return the poses of the scanner in odom, one for each scan."""
     robot = odom(recording, found.stamps)
     return Frame(np.einsum("nij,njk->nik", robot.turn, found.mount.turn), robot.of(found.mount.place))
 
 
-def predictions(recording, found, truth):
+def predictions(recording: Recording, found: Scans, truth: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Yield the end of the sentence "your points are ..." and what a program with that misconception publishes."""
     robot, mount, hits = odom(recording, found.stamps), found.mount, found.hits
     both = both_frames(recording, found)
     on_robot, count = mount.of(hits), len(hits)
     heard = recording.signal(f"{TF}/count").times / 1e9
 
-    def at(times):
+    def at(times: np.ndarray) -> np.ndarray:
         return odom(recording, times).of(on_robot)
 
-    def latest(times):
+    def latest(times: np.ndarray) -> np.ndarray:
         index = np.searchsorted(heard, times) - 1
         return at(np.where(index >= 0, heard[np.maximum(index, 0)], np.nan))
 
@@ -348,7 +359,7 @@ def predictions(recording, found, truth):
     yield "always the same", still.place + found.points[~np.isnan(found.points[:, 0])][:1]
 
 
-def stamps(recording, parameters):
+def stamps(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if nearly all scans got one point with their own stamp, and no point has another stamp."""
     expected = "one point with the stamp of each scan"
     sent = values(recording, f"{SCAN}/header/stamp")[1:]
@@ -376,7 +387,7 @@ def stamps(recording, parameters):
     return Finding(False, expected, measured, round(at, 3), explanation=headers.stamps(given, other, sent, heard))
 
 
-def frames(recording, parameters):
+def frames(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if every point names the frame odom."""
     expected = "frame_id 'odom'"
     named = [line.text for line in recording.lines(f"{TOPIC}/header/frame_id")]

@@ -1,12 +1,16 @@
 """What is written in the headers of points in place of the scan's stamp and of the frame odom."""
 
+from __future__ import annotations
+
 import numpy as np
+
+from gz_course.grader.record.reading import Signal
 
 SHARE = 0.9  # of the points
 SAME = 5e-4  # [s] between equal stamps
 
 
-def stamps(given, other, sent, heard):
+def stamps(given: Signal, other: np.ndarray, sent: np.ndarray, heard: np.ndarray) -> str:
     """Explain stamps that are `other` than those of the scans, `sent`; `heard` are the times of transforms [s]."""
     times, wrong = given.times[other] / 1e9, given.values[other]
     latest = heard[np.maximum(np.searchsorted(heard, times + SAME) - 1, 0)] if len(heard) else times + 1
@@ -29,7 +33,7 @@ def stamps(given, other, sent, heard):
     return ""
 
 
-def frame(said):
+def frame(said: str) -> str:
     """Explain the frame_id of points; empty if it is the right one."""
     meant = {
         "": "empty",

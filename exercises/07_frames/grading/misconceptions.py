@@ -1,8 +1,16 @@
 """Where points lie if they are those of other rays, or of another heading; and in what wrong points are right."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from .geometry import about_z, polar
+
+if TYPE_CHECKING:
+    from .checks import Scans
 
 CLOSE = 0.03  # [m]
 SAME_WAY = 0.03  # [rad]
@@ -11,7 +19,7 @@ SOME_RAYS = 6
 SIGNS = (1, -1, -1), (-1, 1, -1), (-1, -1, 1), (1, 1, 1)  # of the diagonal, for x, y, z, w
 
 
-def of_other_headings(turn, hits, given):
+def of_other_headings(turn: np.ndarray, hits: np.ndarray, given: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Yield hits (n, 3) [m] turned about z by what is not the heading of the rotations (n, 3, 3).
 
     A quaternion and its opposite are the same rotation: of the points of both, those near the given ones (n, 3) count.
@@ -19,7 +27,7 @@ def of_other_headings(turn, hits, given):
     heading = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
     right = "the heading is 2 * atan2(q.z, q.w)"
     signs = (np.sin(heading / 2), np.cos(heading / 2)), (-np.sin(heading / 2), -np.cos(heading / 2))
-    angles = {
+    angles: dict[str, Callable[[np.ndarray, np.ndarray], np.ndarray]] = {
         f"turned by q.z as if it were an angle: {right}": lambda z, w: z,
         f"turned by q.w as if it were an angle: {right}": lambda z, w: w,
         f"turned by 2 * q.z: {right}": lambda z, w: 2 * z,
@@ -42,7 +50,7 @@ def of_other_headings(turn, hits, given):
         yield words, np.where(nearer[:, None], one, other)
 
 
-def _quaternions(turn):
+def _quaternions(turn: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return the quaternions x, y, z, w, each (n,), of rotations (n, 3, 3)."""
     squares = [1 + turn[:, 0, 0] * a + turn[:, 1, 1] * b + turn[:, 2, 2] * c for a, b, c in SIGNS]
     x, y, z, w = (np.sqrt(np.maximum(square, 0)) / 2 for square in squares)
@@ -52,7 +60,7 @@ def _quaternions(turn):
     return x, y, z, w
 
 
-def of_other_formulas(turn, hits):
+def of_other_formulas(turn: np.ndarray, hits: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Yield hits (n, 3) [m] turned by a formula with one slip: v + 2 w (u x v) + 2 u x (u x v) is the right one.
 
     Source: https://en.wikipedia.org/wiki/Quaternions_and_spatial_rotation (Rodrigues' rotation of a vector).
@@ -68,7 +76,9 @@ def of_other_formulas(turn, hits):
     yield f"turned by a formula that lacks w (u x v): {right}", hits + 2 * twice
 
 
-def of_other_quaternions(turn):
+def of_other_quaternions(
+    turn: np.ndarray,
+) -> Iterator[tuple[str, tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]]:
     """Yield quaternions (x, y, z, w), each (n,), that are not those of the rotations (n, 3, 3)."""
     x, y, z, w = _quaternions(turn)
     words = "those of a quaternion in another order: ROS has x, y, z, w"
@@ -77,7 +87,7 @@ def of_other_quaternions(turn):
     yield words, (z, y, x, w)
 
 
-def of_other_matrices(turn, hits):
+def of_other_matrices(turn: np.ndarray, hits: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Yield hits (n, 3) [m] turned by the heading of the rotations (n, 3, 3) with one slip in the matrix."""
     heading = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
     c, s = np.cos(heading), np.sin(heading)
@@ -94,7 +104,7 @@ def of_other_matrices(turn, hits):
         yield f"turned by a matrix that is wrong in {words}: {right}", np.stack([across, along, z], -1)
 
 
-def of_other_rays(found):
+def of_other_rays(found: Scans) -> Iterator[tuple[str, np.ndarray]]:
     """Yield points in the scanner's frame that take another ray, or another direction for the ray."""
     first, step = found.angles.T
     distance = np.linalg.norm(found.hits, axis=-1)
@@ -157,7 +167,7 @@ def of_other_rays(found):
     ]
     means = np.array([np.nanmean(row) for row in valid])
     yield "at the average distance of all hits, not at that of the nearest", polar(means, angle)
-    others = {
+    others: dict[str, Callable[[np.ndarray], Any]] = {
         "the farthest hit, not the nearest": np.nanargmax,
         "the hit of the first valid ray, not the nearest": lambda row: np.flatnonzero(~np.isnan(row))[0],
         "the hit of the last valid ray, not the nearest": lambda row: np.flatnonzero(~np.isnan(row))[-1],
@@ -170,7 +180,7 @@ def of_other_rays(found):
     yield "the middle of all hits, not the nearest", np.array([np.nanmean(points, 0) for points in every])
 
 
-def _line_of_angles(angles, rays, first, step):
+def _line_of_angles(angles: np.ndarray, rays: np.ndarray, first: float, step: float) -> str:
     """Return that the angles [rad] of points are a + b * i for the ray i, with which a and b; empty if they are not."""
     if len(np.unique(rays)) < SOME_RAYS or np.ptp(rays) * step < 0.5:
         return ""
@@ -188,14 +198,22 @@ def _line_of_angles(angles, rays, first, step):
     )
 
 
-def apart(points, truth, seen, hits, step, rays=(), first=0.0):
+def apart(
+    points: np.ndarray,
+    truth: np.ndarray,
+    seen: np.ndarray,
+    hits: np.ndarray,
+    step: float,
+    rays: Sequence[int] | np.ndarray = (),
+    first: float = 0.0,
+) -> str:
     """Return in what wrong points are right, as the end of "your points are ..."; empty if in nothing.
 
     `points` and `truth` are in odom, `seen` and `hits` the same in the scanner's frame, all (n, 3) [m]; `step` is the
     angle between two rays, `first` that of the first one [rad], and `rays` the numbers of the rays of the hits.
     """
     there = ~np.isnan(points[:, 0])
-    rays = np.asarray(rays)[there] if len(rays) else np.zeros(0)
+    numbers = np.asarray(rays)[there] if len(rays) else np.zeros(0)
     points, truth, seen, hits = points[there], truth[there], seen[there], hits[there]
     shift, factors = np.median(points - truth, 0), np.linalg.norm(seen, axis=1) / np.linalg.norm(hits, axis=1)
     angles = np.arctan2(seen[:, 1], seen[:, 0]) - np.arctan2(hits[:, 1], hits[:, 0])
@@ -215,10 +233,12 @@ def apart(points, truth, seen, hits, step, rays=(), first=0.0):
     if np.mean(np.abs(np.linalg.norm(seen, axis=1) - np.linalg.norm(hits, axis=1)) <= CLOSE) >= SHARE:
         usual = float(np.median(angles))
         if np.mean(np.abs(angles - usual) <= SAME_WAY) >= SHARE:
-            rays, degrees = usual / step, np.degrees(usual)
-            whole = abs(rays - round(rays)) < 0.1 and abs(rays) >= 1 and abs(degrees - 45 * round(degrees / 45)) > 0.5
+            steps, degrees = usual / step, float(np.degrees(usual))
+            whole = (
+                abs(steps - round(steps)) < 0.1 and abs(steps) >= 1 and abs(degrees - 45 * round(degrees / 45)) > 0.5
+            )
             why = (
-                f", {abs(round(rays))} rays: the number of a ray is counted from the first one of ranges, also where "
+                f", {abs(round(steps))} rays: the number of a ray is counted from the first one of ranges, also where "
                 "only a part of them is looked at"
             )
             return (
@@ -226,7 +246,11 @@ def apart(points, truth, seen, hits, step, rays=(), first=0.0):
                 f"{why if whole else ''}"
             )
         flat = np.mean(np.abs(seen[:, 2]) <= CLOSE) >= SHARE
-        if flat and len(rays) and (line := _line_of_angles(np.arctan2(seen[:, 1], seen[:, 0]), rays, first, step)):
+        if (
+            flat
+            and len(numbers)
+            and (line := _line_of_angles(np.arctan2(seen[:, 1], seen[:, 0]), numbers, first, step))
+        ):
             return f"as far from the scanner as the hits, {line}"
         return "as far from the scanner as the hits, in other directions: the angle, or a rotation, is wrong"
     if np.mean(np.abs(angles) <= SAME_WAY) >= SHARE and "z" in axes:

@@ -1,25 +1,34 @@
 """Points that are other hits of their scan than the nearest, several for one scan, or rounded."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from .geometry import polar
+
+if TYPE_CHECKING:
+    from .checks import Scans
+    from .geometry import Frame
 
 CLOSE = 0.03  # [m]
 SHARE = 0.9  # of the points
 
 
-def valid(found):
+def valid(found: Scans) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Return the ranges [m] of each scan, NaN where a ray is not valid, and the angles [rad] of its rays."""
     for row, (low, high), (first, step) in zip(found.rows, found.limits, found.angles, strict=True):
         yield np.where((row > low) & (row < high), row, np.nan), first + np.arange(len(row)) * step
 
 
-def hits_of(found):
+def hits_of(found: Scans) -> list[np.ndarray]:
     """Return all hits of each scan in the scanner's frame, (rays, 3) [m]; NaN for a ray without one."""
     return [np.stack([row * np.cos(at), row * np.sin(at), 0 * row], -1) for row, at in valid(found)]
 
 
-def several(number, times, stamps):
+def several(number: np.ndarray, times: np.ndarray, stamps: np.ndarray) -> str:
     """Return that scans got several points each, with the reason; empty if most got one.
 
     `times` are those of all points [ns], `stamps` those in their headers [s]. Points of one scan that come at one time
@@ -37,7 +46,7 @@ def several(number, times, stamps):
     return f"{usual}: one is asked for, the nearest hit, published once, after the loop over the rays"
 
 
-def some_hit(found, wrong, seen):
+def some_hit(found: Scans, wrong: np.ndarray, seen: np.ndarray) -> str:
     """Return that the points, `seen` (n, 3) in the scanner's frame, are hits of their scans, but not the nearest."""
     every = hits_of(found)
     off = [np.nanmin(np.linalg.norm(every[i] - seen[i], axis=1)) for i in wrong if not np.isnan(seen[i, 0])]
@@ -57,7 +66,7 @@ def some_hit(found, wrong, seen):
     return f"{said}: another ray is chosen"
 
 
-def chosen(scans, measure):
+def chosen(scans: list[Any], measure: Callable[..., Any]) -> np.ndarray:
     """Return the hits (n, 3) [m] in the scanner's frame for which `measure` of (hits, angles, number) is smallest."""
     points = []
     for i, (hits, angles) in enumerate(scans):
@@ -67,23 +76,23 @@ def chosen(scans, measure):
     return np.array(points)
 
 
-def within(low, high):
+def within(low: float, high: float) -> Callable[..., Any]:
     """Return the measure of the nearest hit among rays between two angles [degrees]."""
 
-    def measure(hits, angles, number):
+    def measure(hits: np.ndarray, angles: np.ndarray, number: int) -> np.ndarray:
         inside = (np.degrees(angles) >= low) & (np.degrees(angles) <= high)
         return np.where(inside, np.linalg.norm(hits, axis=1), np.inf)
 
     return measure
 
 
-def of_other_measures(found, scanner, mount):
+def of_other_measures(found: Scans, scanner: Frame, mount: Frame) -> Iterator[tuple[str, np.ndarray]]:
     """Yield hits (n, 3) [m] in the scanner's frame that are nearest by another measure, or among other rays.
 
     `scanner` are its poses in odom, `mount` those on the robot.
     """
 
-    def from_origin(frame, axes):
+    def from_origin(frame: Frame, axes: list[int]) -> Callable[..., Any]:
         return lambda hits, angles, i: np.linalg.norm((hits @ frame.turn[i].T + frame.place[i])[:, axes], axis=1)
 
     measures = {
@@ -120,7 +129,7 @@ def of_other_measures(found, scanner, mount):
     )
 
 
-def second(found):
+def second(found: Scans) -> np.ndarray:
     points = []
     for hits in hits_of(found):
         distance = np.where(np.isnan(hits[:, 0]), np.inf, np.linalg.norm(hits, axis=1))
@@ -128,7 +137,7 @@ def second(found):
     return np.array(points)
 
 
-def shifted(found):
+def shifted(found: Scans) -> np.ndarray:
     """Return hits in the direction that the index of the nearest among the valid rays would have in the scan."""
     points = []
     for row, angles in valid(found):
@@ -138,10 +147,11 @@ def shifted(found):
     return np.array(points)
 
 
-def rounded(truth, hits):
+def rounded(truth: np.ndarray, hits: np.ndarray) -> Iterator[tuple[bool, str, np.ndarray]]:
     """Yield rounded points (n, 3) [m]: of `truth` in odom, of `hits` in the scanner's frame; and which of both."""
     distance, angle = np.linalg.norm(hits, axis=1), np.arctan2(hits[:, 1], hits[:, 0])
-    for how, change in {"rounded": np.round, "cut off": np.trunc}.items():
+    changes: dict[str, Callable[[np.ndarray], np.ndarray]] = {"rounded": np.round, "cut off": np.trunc}
+    for how, change in changes.items():
         for step, name in ((1.0, "whole metres"), (0.1, "one decimal")):
             yield True, f"{how} to {name}", change(truth / step) * step
             yield False, f"{how} to {name} before they are transformed", change(hits / step) * step

@@ -1,6 +1,15 @@
 """Why scans got no point: what the node asked tf2 for, as its file says, and what the others have in common."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+from gz_course.grader.record.reading import Recording
+
+if TYPE_CHECKING:
+    from .checks import Scans
 
 FRAMES = ("odom", "robot", "robot/scanner", "robot/base_link", "robot/lidar_link")  # of the bridge
 FEW = 0.5  # of the scans
@@ -8,7 +17,7 @@ ALIKE = 0.95  # of the scans without a point, that have in common what those wit
 SOME = 3  # scans with a point, or without one; fewer say nothing
 
 
-def shared_header(recording):
+def shared_header(recording: Recording) -> str:
     """Return the end of a sentence on a frame_id that was changed for two messages; empty if none was."""
     for place in recording.facts().get("shared_headers", []):
         return (
@@ -18,7 +27,7 @@ def shared_header(recording):
     return ""
 
 
-def reason(recording, infinite, given, scans):
+def reason(recording: Recording, infinite: int, given: int, scans: int) -> str:
     """Return the beginning of a sentence on why `given` of so many scans got a point; empty if it is not known.
 
     `infinite` coordinates were no finite numbers.
@@ -55,7 +64,7 @@ def reason(recording, infinite, given, scans):
     return ""
 
 
-def left_out(found, met, truth):
+def left_out(found: Scans, met: np.ndarray, truth: np.ndarray) -> str:
     """Return what is odd about the scans that got no point, if the others, `met`, are right; `truth` is (n, 3) [m]."""
     there = ~np.isnan(found.points[:, 0])
     if not there.any() or not met[there].all():
@@ -72,7 +81,7 @@ def left_out(found, met, truth):
     return f"{share}: keep a scan until its transform is there"
 
 
-def _unmoved(there, truth):
+def _unmoved(there: np.ndarray, truth: np.ndarray) -> str:
     """Return that scans got no point if their hit was where the last point is; empty if that is not so."""
     before = np.maximum.accumulate(np.where(there, np.arange(len(there)), -1))
     last = np.concatenate([[-1], before[:-1]])
@@ -87,7 +96,7 @@ def _unmoved(there, truth):
     return ""
 
 
-def _in_common(found, there):
+def _in_common(found: Scans, there: np.ndarray) -> str:
     """Return by which limit of distance or direction some scans got no point; empty if there is none."""
     if min(there.sum(), (~there).sum()) < SOME:
         return ""

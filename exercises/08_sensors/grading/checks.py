@@ -3,13 +3,18 @@
 `misconceptions.py` says more about what a wrong run looks like.
 """
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 
 from . import directions, misconceptions, stopping
@@ -38,7 +43,7 @@ STOP_OFF, FACING = 0.12, 0.12  # [m], [rad]
 STILL = 1.0  # [s] at the end
 
 
-def places_the_posts(recording, parameters):
+def places_the_posts(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if nearly all points lie at red posts, and each red post got one."""
     expected = f"points within {NEAR:g} m of the red posts, at least one for each of them"
     points, stamps, came = said_points(recording)
@@ -89,7 +94,7 @@ def places_the_posts(recording, parameters):
     return Finding(False, expected, measured, round(float(came[first] / 1e9), 3), explanation=why)
 
 
-def why_misplaced(recording, points, stamps, right):
+def why_misplaced(recording: Recording, points: np.ndarray, stamps: np.ndarray, right: np.ndarray) -> str:
     """Return the misconception that explains most of the wrong points; empty if none does."""
     red, _ = posts(recording, "red")
     at = pose(recording, stamps)
@@ -99,7 +104,12 @@ def why_misplaced(recording, points, stamps, right):
     if not stamps.any():
         return "header.stamp was left at zero: copy it from the picture"
 
-    def fits(ahead, left, at=at, places=red):
+    def fits(
+        ahead: np.ndarray,
+        left: np.ndarray,
+        at: Sequence[np.ndarray] = at,
+        places: np.ndarray = red,
+    ) -> bool:
         return hits(placed(at, ahead, left), places)[wrong].mean() >= 0.75
 
     for scale, how in ((1e-3, "1000 times too large"), (1e3, "1000 times too small"), (1e-2, "100 times too large")):
@@ -112,7 +122,7 @@ def why_misplaced(recording, points, stamps, right):
             if colour == "blue":
                 return "the points lie at the blue posts: red and blue are swapped (rgb8 and bgr8)"
             return f"the points lie at the {colour} posts, too: your rule for red holds for {colour}"
-    start = tuple(np.full(len(x), each[0]) for each in pose(recording, np.zeros(1)))
+    start = [np.full(len(x), each[0]) for each in pose(recording, np.zeros(1))]
     here, camera = (at[0], at[1], start[2]), placed(at, np.zeros(len(x)), np.zeros(len(x)))
     turned = (
         "the points are turned by the robot's heading; point.x is how far ahead of the camera a post is and point.y "
@@ -134,7 +144,7 @@ def why_misplaced(recording, points, stamps, right):
     return ""
 
 
-def why_somewhere(recording, points, stamps, right):
+def why_somewhere(recording: Recording, points: np.ndarray, stamps: np.ndarray, right: np.ndarray) -> str:
     """Return what kind of wrong points these are if no misconception fits them; empty if that is not known."""
     red, at = posts(recording, "red")[0], pose(recording, stamps)
     x, y, _ = points.T
@@ -164,13 +174,19 @@ def why_somewhere(recording, points, stamps, right):
     return said
 
 
-def why_beside(at, ahead, left, places, right):
+def why_beside(
+    at: tuple[np.ndarray, np.ndarray, np.ndarray],
+    ahead: np.ndarray,
+    left: np.ndarray,
+    places: np.ndarray,
+    right: np.ndarray,
+) -> str:
     """Return what is wrong with `left` if it is another multiple of the true one; empty if `ahead` is wrong, too.
 
     The multiple is the same for all points, or in proportion to 1 / ahead.
     """
-    seen = [before_camera(tuple(each[i] for each in at), place) for i in range(len(ahead)) for place in places]
-    seen = np.array(seen).reshape(len(ahead), len(places), 2)
+    every = [before_camera(tuple(each[i] for each in at), place) for i in range(len(ahead)) for place in places]
+    seen = np.array(every).reshape(len(ahead), len(places), 2)
     # of the posts at that distance the one whose side and direction fit best
     near = np.abs(seen[:, :, 0] - RADIUS - ahead[:, None]) <= 0.15
     same_side = np.sign(seen[:, :, 1]) == np.sign(left)[:, None]
@@ -198,7 +214,9 @@ def why_beside(at, ahead, left, places, right):
     return f"ahead is right, left is {usual:.2f} times the right value: fx, the focal length [pixels], is wrong"
 
 
-def directed(at, ahead, left, places):
+def directed(
+    at: tuple[np.ndarray, np.ndarray, np.ndarray], ahead: np.ndarray, left: np.ndarray, places: np.ndarray
+) -> np.ndarray:
     """Return which points, shape (n,), lie in the direction of one of the places as seen by the camera."""
     x, y, yaw = at
     camera = np.stack((x + CAMERA_AHEAD * np.cos(yaw), y + CAMERA_AHEAD * np.sin(yaw)), axis=1)
@@ -207,7 +225,7 @@ def directed(at, ahead, left, places):
     return np.abs(np.remainder(off + np.pi, 2 * np.pi) - np.pi).min(axis=1) <= 0.08
 
 
-def turns_once(recording, parameters):
+def turns_once(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the robot has truly turned by 360 degrees to the left when the first number comes."""
     expected = f"360 degrees, to {math.degrees(TURN_OFF):.0f}, when the number comes on /red_count"
     first = counted(recording)
@@ -227,7 +245,7 @@ def turns_once(recording, parameters):
     return Finding(passed, expected, measured, round(when / 1e9, 3), explanation=why)
 
 
-def counts_the_posts(recording, parameters):
+def counts_the_posts(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the number of red posts was published, and no other number."""
     red = len(posts(recording, "red")[0])
     first = counted(recording)
@@ -263,7 +281,7 @@ def counts_the_posts(recording, parameters):
     return Finding(False, expected, f"the number was {number}, but {red} red posts stand there", at, explanation=why)
 
 
-def stops_before_the_post(recording, parameters):
+def stops_before_the_post(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the robot stands 1 m before the nearest red post; wrong points, turns or counts explain another stop."""
     found = stopped(recording)
     earlier = (places_the_posts, turns_once, counts_the_posts)
@@ -272,7 +290,7 @@ def stops_before_the_post(recording, parameters):
     return replace(found, gated=True, explanation="")
 
 
-def stopped(recording):
+def stopped(recording: Recording) -> Finding:
     """Return where and how the robot stands at the end."""
     expected = f"at the end it faces the nearest red post, {STOP:g} m before it (to {STOP_OFF:g} m), and stands still"
     end = np.array([recording.end_ns])

@@ -3,9 +3,13 @@
 `misconceptions.py` asks for it. The cameras of the hall are 160 pixels wide, and see 1.2 rad.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
+
+from gz_course.grader.record.reading import Recording
 
 from . import hall
 
@@ -19,7 +23,7 @@ NUMBERS = {
 }  # fmt: skip
 
 
-def other_line(seen, ahead, left):
+def other_line(seen: np.ndarray, ahead: np.ndarray, left: np.ndarray) -> str:
     """Return from which column, and by which focal length, `left` was made if `ahead` is right; empty if neither fits.
 
     `seen` holds the posts (n, m, 2) as (ahead, left) [m] of the camera when each point (n,) was stamped.
@@ -51,7 +55,7 @@ def other_line(seen, ahead, left):
     return ""
 
 
-def always_the_same(ahead, left):
+def always_the_same(ahead: np.ndarray, left: np.ndarray) -> str:
     """Return whether all points lie in one direction, wherever the posts are; empty if they do not."""
     shares = left / np.maximum(ahead, 0.3)
     low, middle, high = np.percentile(shares, (10, 50, 90)) if len(shares) >= FEWEST else (-1.0, 0.0, 1.0)
@@ -64,13 +68,13 @@ def always_the_same(ahead, left):
     )
 
 
-def _named(number):
+def _named(number: float) -> str:
     """Return a number of pixels, and what else is as large."""
     found = [words for known, words in NUMBERS.items() if abs(number - known) <= 0.03 * known]
     return f"{number:.0f}" + (f" ({found[0]})" if found else "")
 
 
-def of_rays(seen, ahead, left):
+def of_rays(seen: np.ndarray, ahead: np.ndarray, left: np.ndarray) -> str:
     """Return whether depths were taken for the lengths of rays, or lengths of rays made of them; empty if neither."""
     off = np.arctan2(seen[:, :, 1], seen[:, :, 0]) - np.arctan2(left, ahead)[:, None]
     which, rows = np.abs(off).argmin(axis=1), np.arange(len(ahead))
@@ -95,9 +99,9 @@ def of_rays(seen, ahead, left):
     return ""
 
 
-def said_again(points, stamps):
+def said_again(points: np.ndarray, stamps: np.ndarray) -> str:
     """Return whether points of earlier pictures came again with later stamps; empty if not."""
-    first = {}
+    first: dict[tuple[float, ...], int] = {}
     again = 0
     for point, stamp in zip(points[:, :2].tolist(), stamps.tolist(), strict=True):
         again += first.setdefault(tuple(point), stamp) != stamp
@@ -109,7 +113,7 @@ def said_again(points, stamps):
     )
 
 
-def one_a_picture(recording, there, stamps):
+def one_a_picture(recording: Recording, there: np.ndarray, stamps: np.ndarray) -> str:
     """Return whether points (n, 2) [m] of the hall are of one post only where a picture shows two or more.
 
     Posts count that are surely in the picture, in directions that are far enough apart, and pictures that have a point.
@@ -125,7 +129,7 @@ def one_a_picture(recording, there, stamps):
             continue
         found = [hall.hits(there[stamps == stamp], place[None]).any() for place in red[shown]]
         lost.append(sum(found) < len(found))
-    if len(lost) < 2 or np.mean(lost) < 0.8:
+    if len(lost) < 2 or np.mean(np.array(lost)) < 0.8:
         return ""
     return (
         f"in {sum(lost)} of the {len(lost)} pictures that show several red posts, not each of them got a point: a "

@@ -1,12 +1,17 @@
 """What a run looks like if its node has a common misconception; `checks.py` asks for the one that fits."""
 
+from __future__ import annotations
+
 import math
 import re
 from collections import Counter
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording
 
 from . import directions, hall, turning
 
@@ -15,7 +20,7 @@ SEES = 3.4  # [m] within which a post is surely large enough
 FOCAL_LENGTH, MIDDLE, HALF_HEIGHT = 80 / math.tan(0.6), 80, 60  # [pixels] of the cameras of the hall
 
 
-def too_few_points(recording, points):
+def too_few_points(recording: Recording, points: np.ndarray) -> str:
     """Return why hardly any point came; empty if that is not known."""
     number = len(recording.signal("topics/red_post/count"))
     if number - len(points) > 5:
@@ -31,7 +36,7 @@ def too_few_points(recording, points):
     return ""
 
 
-def missing_posts(recording, points, stamps, missing):
+def missing_posts(recording: Recording, points: np.ndarray, stamps: np.ndarray, missing: np.ndarray) -> str:
     """Return why there is no point at some of the red posts, shape (n, 2), if all points are right."""
     times = np.unique(np.round(recording.signal("topics/camera/image/header/stamp").values * 1e9).astype(np.int64))
     times = times[times <= (stamps.max() if len(stamps) else 0)]
@@ -58,12 +63,12 @@ def missing_posts(recording, points, stamps, missing):
     return ""
 
 
-def in_view(at, place):
+def in_view(at: tuple[float, float, float], place: np.ndarray) -> bool:
     ahead, left = hall.before_camera(tuple(map(float, at)), place)
     return 0.3 < ahead < SEES and abs(math.atan2(left, ahead)) < HALF_VIEW
 
 
-def misplaced(recording, points, stamps, right):
+def misplaced(recording: Recording, points: np.ndarray, stamps: np.ndarray, right: np.ndarray) -> str:
     """Return what else is wrong with points, of which some are right; empty if nothing fits."""
     red = hall.posts(recording, "red")[0]
     at = hall.pose(recording, stamps)
@@ -91,7 +96,7 @@ def misplaced(recording, points, stamps, right):
     )
 
 
-def middle_off(seen, ahead, left):
+def middle_off(seen: np.ndarray, ahead: np.ndarray, left: np.ndarray) -> str:
     """Find out whether all points are off to one side by the same share of their distance."""
     near = np.abs(seen[:, :, 0] - hall.RADIUS - ahead[:, None]) <= 0.15
     which = np.where(near, np.abs(seen[:, :, 1] - left[:, None]), np.inf).argmin(axis=1)
@@ -109,7 +114,7 @@ def middle_off(seen, ahead, left):
     )
 
 
-def counted_from(column):
+def counted_from(column: float) -> str:
     """Return what a column is that was taken for the middle one."""
     for known, words in ((0, "the left edge, column 0"), (2 * MIDDLE, f"the right edge, column {2 * MIDDLE}")):
         if abs(column - known) <= 6:
@@ -119,7 +124,7 @@ def counted_from(column):
     return f"about column {column:.0f}"
 
 
-def one_thing(seen, ahead, left, right):
+def one_thing(seen: np.ndarray, ahead: np.ndarray, left: np.ndarray, right: np.ndarray) -> str:
     """Find out whether points are wrong exactly where two posts are in the picture."""
     angles = np.arctan2(seen[:, :, 1], seen[:, :, 0])
     visible = (np.abs(angles) < HALF_VIEW) & (seen[:, :, 0] > 0.3) & (seen[:, :, 0] < SEES)
@@ -136,7 +141,7 @@ def one_thing(seen, ahead, left, right):
     return ""
 
 
-def other_depth(recording, points, stamps, right):
+def other_depth(recording: Recording, points: np.ndarray, stamps: np.ndarray, right: np.ndarray) -> str:
     """Find out what the distances are if the directions are right."""
     wrong, at = ~right, hall.pose(recording, stamps)
     red, ahead, left = hall.posts(recording, "red")[0], points[:, 0], points[:, 1]
@@ -165,7 +170,7 @@ def other_depth(recording, points, stamps, right):
     return ""
 
 
-def to_the_wall(at, direction):
+def to_the_wall(at: tuple[np.ndarray, np.ndarray, np.ndarray], direction: np.ndarray) -> np.ndarray:
     """Return how far ahead [m] of the camera the wall of the hall is in a direction [rad] from ahead."""
     x, y, yaw = at
     x, y = x + hall.CAMERA_AHEAD * np.cos(yaw), y + hall.CAMERA_AHEAD * np.sin(yaw)
@@ -176,7 +181,7 @@ def to_the_wall(at, direction):
     return np.minimum(across, along) * np.cos(direction)
 
 
-def never_turned(recording):
+def never_turned(recording: Recording) -> str:
     """Return why the robot did not turn, and no number came."""
     if not len(recording.signal("topics/cmd_vel/angular/z")):
         return (
@@ -186,7 +191,7 @@ def never_turned(recording):
     return ""
 
 
-def on_and_on(recording):
+def on_and_on(recording: Recording) -> str:
     """Return why the robot never stopped turning, as far as the file tells."""
     return (
         suspect(recording, "gyroscope", "angle")
@@ -198,7 +203,7 @@ def on_and_on(recording):
     )
 
 
-def too_fast(recording, turned):
+def too_fast(recording: Recording, turned: float) -> str:
     """Return what is wrong with a heading that was a full turn when the robot had turned by another angle [rad]."""
     if said := suspect(recording, "gyroscope", "angle"):
         return said
@@ -208,7 +213,7 @@ def too_fast(recording, turned):
     return f"your heading grows {factor:.2f} times as fast as the robot turns" if turned > 0 else ""
 
 
-def several_numbers(recording):
+def several_numbers(recording: Recording) -> str:
     """Return why several numbers came."""
     signal = recording.signal("topics/red_count/data")
     gaps = np.diff(signal.times) / 1e9
@@ -222,7 +227,7 @@ def several_numbers(recording):
     return ""
 
 
-def other_count(recording, number, when, placed_right):
+def other_count(recording: Recording, number: int, when: int, placed_right: bool) -> str:
     """Return what else a wrong number of red posts counts, given when it came [ns]; empty if that is not known.
 
     `placed_right` says whether the points on /red_post are right.
@@ -268,7 +273,7 @@ def other_count(recording, number, when, placed_right):
     return ""
 
 
-def turned_otherwise(recording, when):
+def turned_otherwise(recording: Recording, when: int) -> Iterator[tuple[str, int]]:
     """Yield wrong ways to turn the points until a time [ns], and how many places they give."""
     words = "that is the number of places if the points are "
     yield words + "not turned by the heading at which they were seen", hall.found_if(recording, when, 0.0)
@@ -276,19 +281,19 @@ def turned_otherwise(recording, when):
     yield words + "turned the wrong way: check the signs of sin(heading)", back
 
 
-def the_only_one(number, ways):
+def the_only_one(number: int, ways: list[Any]) -> str:
     """Return the words of the wrong rule that gives this number; empty if none does, or rules of different kinds."""
     fitting = [words for words, found in ways if found == number]
     kinds = {re.sub(r"[\d.]+", "", words).partition(":")[0] for words in fitting}
     return fitting[0] if len(kinds) == 1 else ""
 
 
-def _there(recording, kind):
+def _there(recording: Recording, kind: str) -> tuple[np.ndarray, np.ndarray]:
     points, stamps, _ = hall.said_points(recording)
     return hall.placed(hall.pose(recording, stamps), points[:, 0], points[:, 1]), hall.posts(recording, kind)[0]
 
 
-def ways_to_count(here, points, yaw):
+def ways_to_count(here: np.ndarray, points: np.ndarray, yaw: np.ndarray) -> Iterator[tuple[str, int]]:
     """Yield wrong rules for which points are the same post, and how many posts they find among points (n, 2)."""
     for metres in (1.0, 1.5, 2.0, 3.0, 5.0):
         words = (
@@ -320,7 +325,7 @@ def ways_to_count(here, points, yaw):
     )
 
 
-def after_another(here, number):
+def after_another(here: np.ndarray, number: int) -> bool:
     """Find out whether a number comes about, too, if points are compared with one known post alone."""
     found = []
     for which in (min, max):
@@ -332,9 +337,9 @@ def after_another(here, number):
     return number in found
 
 
-def _distinct(places, apart, size=np.linalg.norm):
+def _distinct(places: np.ndarray, apart: float, size: Callable[..., Any] = np.linalg.norm) -> int:
     """Return how many places are more than `apart` [m] from all before them, by the `size` of the difference."""
-    known = []
+    known: list[np.ndarray] = []
     for place in places:
         if all(size(np.abs(place - other)) > apart for other in known):
             known.append(place)

@@ -1,15 +1,18 @@
 """Why the robot stood at a wrong place at the end, or still moved; `misconceptions.py` hands it on."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording
 
 from . import hall
 
 
-def other_post(recording, name):
+def other_post(recording: Recording, name: str) -> str:
     """Return by which rule a red post was chosen that is not the nearest; empty if none fits."""
     red, names = hall.posts(recording, "red")
     start = [float(each[0]) for each in hall.pose(recording, np.zeros(1))]
@@ -31,7 +34,7 @@ def other_post(recording, name):
     return ""
 
 
-def wrong_stop(recording, away):
+def wrong_stop(recording: Recording, away: float) -> str:
     """Return why the robot stood at another distance [m] before the right post than it should."""
     command = recording.signal("topics/cmd_vel/linear/x")
     if len(command) and command.times[-1] < recording.end_ns - 2e9 and abs(command.values[-1]) > 0.02:
@@ -47,7 +50,7 @@ def wrong_stop(recording, away):
     return f"it is {near} by {abs(away - hall.STOP):.2f} m: the depth camera must measure 1 m to the post at the end"
 
 
-def away_from_it(recording):
+def away_from_it(recording: Recording) -> str:
     """Return whether the robot drove backwards where the nearest red post was too far away."""
     late = np.array([recording.end_ns - 3_000_000_000, recording.end_ns])
     seen = [
@@ -64,7 +67,7 @@ def away_from_it(recording):
     )
 
 
-def turned_far(recording):
+def turned_far(recording: Recording) -> str:
     """Return whether the robot turned by clearly more than half a turn towards the post; empty if not."""
     first = hall.counted(recording)
     if first is None:
@@ -81,7 +84,7 @@ def turned_far(recording):
     return f"after the number came it turned by {math.degrees(turned):.0f} degrees to face a post: {why}"
 
 
-def faced_nothing(recording, here, start):
+def faced_nothing(recording: Recording, here: tuple[float, ...], start: tuple[float, ...]) -> str:
     """Return in which wrong direction the robot looked at the end."""
     if said := turned_far(recording):
         return said
@@ -99,7 +102,7 @@ def faced_nothing(recording, here, start):
     )
 
 
-def still_moving(recording):
+def still_moving(recording: Recording) -> str:
     """Return why the robot was moving at the end."""
     speed = recording.signal("topics/cmd_vel/linear/x")
     if said := turned_far(recording) or away_from_it(recording):

@@ -1,10 +1,13 @@
 """What a heading was made of that was a full turn at the wrong time, or never; `misconceptions.py` hands it on."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording
 
 from . import hall
 
@@ -14,7 +17,7 @@ TURNED_EARLY = 0.1  # [rad] in the first second
 SOON = 0.15  # [s] between a time and the one that a misconception explains
 
 
-def turned_early(recording):
+def turned_early(recording: Recording) -> str:
     """Return how far the robot turned in the second in which it should stand; empty if it stood, or no bias counts."""
     ends = recording.facts().get("endpoints", [])
     if ends and not any(end["kind"] == "subscription" and end["topic"] == "/imu" for end in ends):
@@ -30,7 +33,7 @@ def turned_early(recording):
     )
 
 
-def since_the_first(times, rates, when):
+def since_the_first(times: np.ndarray, rates: np.ndarray, when: float) -> str:
     """Return whether each rate was multiplied by a time that grows [s], given when the sum was a full turn [ns]."""
     start = times[0] if len(times) else 0.0
     for begin in (0.0, STAND):
@@ -44,7 +47,7 @@ def since_the_first(times, rates, when):
     return ""
 
 
-def why_turned(recording, when, turned):
+def why_turned(recording: Recording, when: int, turned: float) -> str:
     """Return the misconception whose heading is 2 pi at that time [ns]; empty if there is none."""
     if abs(turned + FULL_TURN) <= 2 * hall.TURN_OFF:
         return "it turned to the right: a positive angular.z turns to the left"
@@ -90,7 +93,7 @@ def why_turned(recording, when, turned):
     return other_bias(times, rates, turning, bias)
 
 
-def other_bias(times, rates, turning, bias):
+def other_bias(times: np.ndarray, rates: np.ndarray, turning: np.ndarray, bias: float) -> str:
     """Return what was subtracted as the bias [rad/s] if the sum of `rates` was then a full turn; empty if unknown.
 
     `turning` says at which of the `times` [s] the robot truly turned.

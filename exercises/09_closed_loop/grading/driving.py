@@ -1,14 +1,21 @@
 """How the robot was driven: too slowly, straight on where the wall turns, with no command; `misconceptions.py` asks."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+
+if TYPE_CHECKING:
+    from .wall import Run
 
 LONG = 0.7  # [s] of driving straight on
 FAR = 0.3  # [m] beyond the distance that is asked for
 
 
-def slow(run):
+def slow(run: Run) -> str:
     """Find out whether the robot drives far below its limit although nothing is wrong with its way."""
     values = run.recording.signal("topics/cmd_vel/linear/x").values
     usual, most = (float(np.median(values)), float(values.max())) if len(values) else (0.0, 0.0)
@@ -25,7 +32,7 @@ def slow(run):
     )
 
 
-def straight_on(run):
+def straight_on(run: Run) -> str:
     """Find out whether the robot drives straight on for long where its wall ends or lies far away."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     ahead = run.recording.signal("topics/cmd_vel/linear/x").values
@@ -51,7 +58,7 @@ def straight_on(run):
     return ""
 
 
-def circles(run):
+def circles(run: Run) -> str:
     """Find out whether the robot turns to one side all the time, for several full turns."""
     rates = run.recording.signal("topics/cmd_vel/angular/z").values
     turned = np.diff(run.times) @ run.turning[:-1] / (2 * np.pi)
@@ -64,7 +71,7 @@ def circles(run):
     return f"{said}, by {least:.1f} rad/s or more, so the error that it is made of never becomes small"
 
 
-def speed_by_distance(run):
+def speed_by_distance(run: Run) -> str:
     """Find out whether linear.x follows the parameter distance: its largest value changes with it."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     times = signal.times / 1e9
@@ -81,7 +88,7 @@ def speed_by_distance(run):
     )
 
 
-def other_axes(run):
+def other_axes(run: Run) -> str:
     """Find out whether the commands turn about an axis, or drive along one, that no robot on the ground has."""
     for name, right in (("angular/x", "angular/z"), ("angular/y", "angular/z"), ("linear/y", "linear/x")):
         values = np.abs(run.recording.signal(f"topics/cmd_vel/{name}").values)
@@ -94,7 +101,7 @@ def other_axes(run):
     return ""
 
 
-def silent(run, scans):
+def silent(run: Run, scans: np.ndarray) -> str:
     """Find out whether no command comes as long as the distance is about right: the robot goes on with the last one."""
     times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
     if len(times) < 20 or len(scans) < 50:
@@ -117,7 +124,7 @@ def silent(run, scans):
     )
 
 
-def zero_rays(run, times, bearings, ranges):
+def zero_rays(run: Run, times: np.ndarray, bearings: np.ndarray, ranges: np.ndarray) -> str:
     """Find out whether rays that hit nothing count as 0 m, by the file, in scans that have such rays on the side."""
     if not len(times):
         return ""
@@ -127,7 +134,7 @@ def zero_rays(run, times, bearings, ranges):
     return suspect(run.recording, "zero")
 
 
-def counted_turns(run):
+def counted_turns(run: Run) -> str:
     """Find out whether the robot turns on the spot for longer than any corner needs."""
     command = run.recording.signal("topics/cmd_vel/angular/z")
     speed = run.recording.signal("topics/cmd_vel/linear/x").values
@@ -147,7 +154,7 @@ def counted_turns(run):
     return ""
 
 
-def weak(run):
+def weak(run: Run) -> str:
     """Find out whether the robot never turns much, however wrong its distance is."""
     rates = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
     late = run.times > 3.0
@@ -167,7 +174,7 @@ def weak(run):
     )
 
 
-def against_a_wall(run):
+def against_a_wall(run: Run) -> str:
     """Find out whether the robot was stopped by a wall."""
     if not run.touches.any():
         return ""
@@ -183,7 +190,7 @@ def against_a_wall(run):
     )
 
 
-def elsewhere(run, settled):
+def elsewhere(run: Run, settled: float) -> str:
     """Find out whether the robot is far from the distance asked for most of the time, once it has settled [s]."""
     late = (run.times > settled) & (run.times < run.changed)
     usual, asked = float(np.median(run.distance[late])), float(run.asked[0])
@@ -195,7 +202,7 @@ def elsewhere(run, settled):
     )
 
 
-def on_off(run):
+def on_off(run: Run) -> str:
     values = run.recording.signal("topics/cmd_vel/angular/z").values
     found = np.unique(np.round(values[np.abs(values) > 0.01], 2))
     if len(values) < 50 or len(found) not in (2, 3) or found[0] >= 0 or found[-1] <= 0 or found[-1] < 0.1:
@@ -206,7 +213,7 @@ def on_off(run):
     )
 
 
-def stopped(run):
+def stopped(run: Run) -> str:
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     going = signal.times[np.abs(signal.values) > 0.01] / 1e9
     if not len(going) or going[-1] > run.times[-1] - 5 or run.ahead[-1] > 2.0:
@@ -214,7 +221,7 @@ def stopped(run):
     return f"the robot stopped for good at {going[-1]:.1f} s, {run.ahead[-1]:.1f} m before the wall ahead of it"
 
 
-def late_start(run, scans):
+def late_start(run: Run, scans: np.ndarray) -> str:
     """Find out whether the first command comes long after the first scan."""
     times = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
     if not len(times) or not len(scans) or times[0] - scans[0] < 3.0:
@@ -225,7 +232,7 @@ def late_start(run, scans):
     )
 
 
-def rare_commands(run, times):
+def rare_commands(run: Run, times: np.ndarray) -> str:
     """Find out whether commands come much more rarely than scans."""
     commands = run.recording.signal("topics/cmd_vel/linear/x").times / 1e9
     if len(commands) < 5 or len(times) < 5:
@@ -239,7 +246,7 @@ def rare_commands(run, times):
     return f"{said}: until the next command the robot obeys one from an old scan; publish in the callback of each scan"
 
 
-def backwards(run):
+def backwards(run: Run) -> str:
     """Find out whether many commands drive the robot backwards."""
     values = run.recording.signal("topics/cmd_vel/linear/x").values
     turns = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
@@ -252,7 +259,7 @@ def backwards(run):
     )
 
 
-def added(run):
+def added(run: Run) -> str:
     """Find out whether each command is added to the one before, and the commands are often at their limit for it."""
     values = run.recording.signal("topics/cmd_vel/angular/z").values
     if not len(values) or (np.abs(values) > 1.45).mean() < 0.1:
@@ -260,7 +267,7 @@ def added(run):
     return suspect(run.recording, "added")
 
 
-def speed_of_error(run):
+def speed_of_error(run: Run) -> str:
     """Find out whether linear.x follows the error of the distance, so that the robot stands where it is right."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     error = np.abs(np.interp(signal.times / 1e9, run.times, np.minimum(run.error, 9.0)))

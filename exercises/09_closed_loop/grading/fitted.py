@@ -4,6 +4,11 @@ The law is angular.z = limited(h * heading + d * limited(distance - wanted)); th
 Each candidate is a distance, a heading, or directions of rays, as a program with one mistake takes them from the scan.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
 import numpy as np
 
 LIMIT = 1.5  # [rad/s]
@@ -22,7 +27,9 @@ RIGHT = "take the range of the nearest point itself"
 NEAREST = "the distance from a wall is that of its nearest point, min(...) of the ranges on that side"
 
 
-def nearest(bearings, ranges, side):
+def nearest(
+    bearings: np.ndarray, ranges: np.ndarray, side: tuple[float, float]
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Return the nearest range, its bearing, the mean bearing of all that are as near, and that of the first one."""
     chosen = (bearings > side[0]) & (bearings < side[1])
     where = bearings[chosen]
@@ -34,7 +41,9 @@ def nearest(bearings, ranges, side):
     return least, (where[ranges[:, chosen].argmin(axis=1)], mean, where[there.argmax(axis=1)])
 
 
-def distances(bearings, ranges, side):
+def distances(
+    bearings: np.ndarray, ranges: np.ndarray, side: tuple[float, float]
+) -> Iterator[tuple[str, str, np.ndarray]]:
     """Yield which function a mistake needs, words on a distance that is not the nearest range, and its values (n,)."""
     least, known = nearest(bearings, ranges, side)
     for bearing in known:
@@ -62,16 +71,16 @@ def distances(bearings, ranges, side):
         yield "mean", said, _of_hits(np.mean, across[:, inside])
 
 
-def _least(values):
+def _least(values: np.ndarray) -> np.ndarray:
     return np.where(np.isnan(values), 9.0, values).min(axis=1, initial=9.0)
 
 
-def _of_hits(of, values):
+def _of_hits(of: Any, values: np.ndarray) -> np.ndarray:
     """Return the mean or the median of each row's hits, (n,)."""
     return np.array([of(row[~np.isnan(row)]) if (~np.isnan(row)).any() else 9.0 for row in values])
 
 
-def headings(bearings, ranges, side):
+def headings(bearings: np.ndarray, ranges: np.ndarray, side: tuple[float, float]) -> Iterator[tuple[str, np.ndarray]]:
     """Yield words on a heading that is not the bearing of the nearest point minus pi/2, with its values (n,)."""
     chosen = (bearings > side[0]) & (bearings < side[1])
     hits = np.isfinite(ranges)
@@ -92,7 +101,7 @@ def headings(bearings, ranges, side):
             )
 
 
-def averages(least):
+def averages(least: np.ndarray) -> Iterator[tuple[np.ndarray, str]]:
     """Yield means and medians of the nearest range over time, with words on those that never end."""
     least = np.minimum(least, 9.0)
     medians = np.array([np.median(least[: i + 1]) for i in range(len(least))])
@@ -105,7 +114,7 @@ def averages(least):
         yield (sums - before) / np.minimum(np.arange(1, len(least) + 1), number), ""
 
 
-def directions(bearings):
+def directions(bearings: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Yield words on directions that are counted another way, with the bearing that each ray is taken to have."""
     step = bearings[1] - bearings[0]
     way, number = np.sign(step), np.arange(len(bearings))
@@ -123,7 +132,7 @@ def directions(bearings):
             )
 
 
-def law(distance, heading, rates, asked, turned=0.0):
+def law(distance: np.ndarray, heading: np.ndarray, rates: np.ndarray, asked: np.ndarray, turned: float = 0.0) -> float:
     """Return which share of the variance of turning rates [rad/s] the law explains, with the best gains.
 
     `turned` is the sign that the gain of the heading must have; 0 for any.
@@ -139,7 +148,7 @@ def law(distance, heading, rates, asked, turned=0.0):
     return best
 
 
-def errors(least, heading, asked, rates):
+def errors(least: np.ndarray, heading: np.ndarray, asked: np.ndarray, rates: np.ndarray) -> Iterator[tuple[float, str]]:
     """Yield how well a wrong error of the distance explains the rates, with words: of one sign, or its change alone."""
     error = least - asked
     for sign, found in ((1, "above 0 all the time, also where the robot is too near"),
@@ -167,7 +176,7 @@ def errors(least, heading, asked, rates):
         )
 
 
-def _linear(first, second, rates):
+def _linear(first: np.ndarray, second: np.ndarray, rates: np.ndarray) -> tuple[float, np.ndarray]:
     """Return which share of the rates a limited sum of two terms explains, and the gains."""
     free, terms = np.abs(rates) < 0.95 * LIMIT, np.stack([first, second], axis=1)
     gains = np.linalg.lstsq(terms[free], rates[free], rcond=None)[0]
@@ -175,7 +184,7 @@ def _linear(first, second, rates):
     return 1 - float((left**2).mean()) / max(rates.var(), 1e-9), gains
 
 
-def best_right(bearings, ranges, rates, asked):
+def best_right(bearings: np.ndarray, ranges: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> float:
     """Return how much of the rates follows from the nearest point, whatever the signs are."""
     best = 0.0
     for side in SIDES:
@@ -185,13 +194,13 @@ def best_right(bearings, ranges, rates, asked):
     return best
 
 
-def signs(bearings, ranges, rates, asked, side):
+def signs(bearings: np.ndarray, ranges: np.ndarray, rates: np.ndarray, asked: np.ndarray, side: str) -> str:
     """Return which of the two terms has the wrong sign, if the law fits with that sign and not without."""
     free = np.abs(rates) < 0.95 * LIMIT
     if len(rates) < SCANS or free.sum() < FEWEST or rates[free].var() < 0.005:
         return ""
     ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, np.inf)
-    found = {}
+    found: dict[str, float] = {}
     for limits in SIDES:
         least, known = nearest(bearings, ranges, limits)
         for heading in (bearing - np.pi / 2 for bearing in known):
@@ -211,7 +220,9 @@ def signs(bearings, ranges, rates, asked, side):
     )
 
 
-def best_wrong(bearings, ranges, rates, asked, kinds):
+def best_wrong(
+    bearings: np.ndarray, ranges: np.ndarray, rates: np.ndarray, asked: np.ndarray, kinds: Sequence[str]
+) -> tuple[float, str]:
     """Return how much of the rates the best of the mistakes of these kinds explains, and words on it."""
     found = [(0.0, "")]
     least, known = nearest(bearings, ranges, SIDES[0])
@@ -254,7 +265,9 @@ def best_wrong(bearings, ranges, rates, asked, kinds):
     return max(found)
 
 
-def steers_by(bearings, ranges, rates, asked, kinds):
+def steers_by(
+    bearings: np.ndarray, ranges: np.ndarray, rates: np.ndarray, asked: np.ndarray, kinds: Sequence[str]
+) -> str:
     """Return what angular.z is made of, if that is clearly not the nearest point; empty if it may be.
 
     `kinds` are those of the wrong distances that the file may hold.
@@ -270,7 +283,9 @@ def steers_by(bearings, ranges, rates, asked, kinds):
     return words if share > LEAST and 1 - share < BETTER * (1 - right) else ""
 
 
-def times_speed(bearings, ranges, rates, asked, ahead):
+def times_speed(
+    bearings: np.ndarray, ranges: np.ndarray, rates: np.ndarray, asked: np.ndarray, ahead: np.ndarray
+) -> str:
     """Return words on rates [rad/s] that are the right ones multiplied by linear.x [m/s]; empty if they are not."""
     clear = np.abs(ahead) > 0.01
     if clear.sum() < SCANS or np.abs(rates).max() > 0.9 * LIMIT:

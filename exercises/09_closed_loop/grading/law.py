@@ -3,7 +3,15 @@
 `misconceptions.py` asks for it.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from .wall import Run
 
 LIMIT = 1.5  # [rad/s]
 NEAR = 0.35  # [m] error up to which the approach grows with the error in most programs
@@ -14,7 +22,7 @@ AGES = (3, 4, 5, 6, 8, 10, 12, 15)  # scans between a scan and the command that 
 WINDOWS, SHARES = (8, 12, 20, 30, 40), (0.15, 0.1, 0.07, 0.05, 0.03)  # of moving averages: scans, weight of the newest
 
 
-def opposite(run, point, rates, asked):
+def opposite(run: Run, point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return whether the robot turns the other way than it must wherever that is clear; empty if not."""
     wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
     clear = (np.abs(wanted) > 0.6) & (np.abs(rates) > 0.1)
@@ -27,7 +35,7 @@ def opposite(run, point, rates, asked):
     )
 
 
-def circling(run, values):
+def circling(run: Run, values: np.ndarray) -> str:
     """Return whether the robot turns towards its wall all the time, far from it; empty if not."""
     late = run.times > SETTLED
     usual = float(np.median(values)) if len(values) else 0.0
@@ -44,7 +52,7 @@ def circling(run, values):
     )
 
 
-def unchanging(run, values):
+def unchanging(run: Run, values: np.ndarray) -> str:
     """Return whether nearly all commands [rad/s] are the same, whatever the lidar saw; empty if not."""
     found, counts = np.unique(np.round(values, 3), return_counts=True)
     if len(values) < FEWEST or counts.max() < 0.95 * len(values):
@@ -64,7 +72,7 @@ def unchanging(run, values):
     return f"{said}: the error, or sum, that it is made of is never small and never changes its sign; log its terms"
 
 
-def one_way(run, point, rates, asked):
+def one_way(run: Run, point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return whether the robot turns to one side only, where it must turn to the other as well; empty if not."""
     wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
     turning = rates[np.abs(rates) > 0.02]
@@ -83,14 +91,14 @@ def one_way(run, point, rates, asked):
     )
 
 
-def agrees(point, rates, asked):
+def agrees(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> float:
     """Return in which share of the clear cases the robot turns the way it must."""
     wanted = 4 * np.clip(point[:, 0] - asked, -NEAR, NEAR) + 2 * (point[:, 1] - np.pi / 2)
     clear = (np.abs(wanted) > 0.6) & (np.abs(rates) > 0.1)
     return float(np.mean(np.sign(rates[clear]) == np.sign(wanted[clear]))) if clear.any() else 0.0
 
 
-def kept_beside(run, settled):
+def kept_beside(run: Run, settled: float) -> str:
     """Return by how much the kept distance differs from the one asked for, both times; empty if it does not."""
     off, ratios = [], []
     for chosen in ((run.times > settled) & (run.times < run.changed), run.times > run.changed + 6.0):
@@ -119,7 +127,7 @@ def kept_beside(run, settled):
     )
 
 
-def deaf(point, rates, asked):
+def deaf(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return whether the commands hardly depend on the distance where that is nearly right; empty if they do."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
     clear = (np.abs(error) < 0.25) & (np.abs(rates) < 0.95 * LIMIT)
@@ -135,7 +143,7 @@ def deaf(point, rates, asked):
     )
 
 
-def without_sign(point, rates, asked):
+def without_sign(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return whether the size of the error counts and not its sign; empty if not."""
     error, away = np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2
     clear = np.abs(rates) < 0.95 * LIMIT
@@ -153,7 +161,9 @@ def without_sign(point, rates, asked):
     )
 
 
-def _fit(error, away, rates, constants):
+def _fit(
+    error: np.ndarray, away: np.ndarray, rates: np.ndarray, constants: list[float] | np.ndarray
+) -> Iterator[tuple[float, float]]:
     """Yield how much of the rates limited sums of both errors and a constant explain, and the constant."""
     for near in (0, 1, 2, 4, 6):
         for turned in (0.5, 1, 2, 3, 4):
@@ -163,7 +173,7 @@ def _fit(error, away, rates, constants):
                 yield float(1 - np.mean(left**2) / max(rates.var(), 1e-9)), float(constant)
 
 
-def offset(point, rates, asked):
+def offset(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return which rate is commanded where nothing is wrong, if that is far from 0; empty if it is not."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
     if len(rates) < FEWEST / 2 or rates.var() < 0.02:
@@ -179,12 +189,12 @@ def offset(point, rates, asked):
     )
 
 
-def answers_old(point, rates, old, new):
+def answers_old(point: np.ndarray, rates: np.ndarray, old: float, new: float) -> bool:
     """Return whether the commands fit an old distance [m] clearly better than the new one."""
     return agrees(point, rates, np.full(len(rates), old)) > agrees(point, rates, np.full(len(rates), new)) + 0.1
 
 
-def left_alone(point, rates, asked):
+def left_alone(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return whether angular.z is exactly 0 where the distance is about right, however wrong the heading is."""
     error, away = np.abs(point[:, 0] - asked), np.abs(point[:, 1] - np.pi / 2)
     none = np.abs(rates) < 1e-6
@@ -200,7 +210,7 @@ def left_alone(point, rates, asked):
     )
 
 
-def heeds_heading(point, rates, asked):
+def heeds_heading(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> bool:
     """Return whether the turning rates depend on the heading, too, as far as that can be seen."""
     error, away = np.clip(point[:, 0] - asked, -NEAR, NEAR), point[:, 1] - np.pi / 2
     clear = np.abs(rates) < 0.95 * LIMIT
@@ -211,7 +221,7 @@ def heeds_heading(point, rates, asked):
     return share > 0.8 and 1 - share < 0.3 * (1 - _explained(alone, rates[clear])) - 1e-6
 
 
-def strong(point, rates, asked):
+def strong(point: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> str:
     """Return the gain of the distance if that is far too high for the time between two scans; empty if it is not."""
     error, away = point[:, 0] - asked, point[:, 1] - np.pi / 2
     clear = (np.abs(rates) < 0.95 * LIMIT) & (np.abs(error) < NEAR)
@@ -227,7 +237,7 @@ def strong(point, rates, asked):
     )
 
 
-def late(point, rates, asked, moving=True):
+def late(point: np.ndarray, rates: np.ndarray, asked: np.ndarray, moving: bool | np.ndarray = True) -> str:
     """Return how old what the commands answer is, if they follow a moving average of the scans; empty if not.
 
     Where the robot does not move, all scans are much the same.
@@ -258,13 +268,13 @@ def late(point, rates, asked, moving=True):
     )
 
 
-def _explained(terms, rates):
+def _explained(terms: np.ndarray, rates: np.ndarray) -> float:
     terms = np.hstack([terms, np.ones((len(terms), 1))])
     left = rates - terms @ np.linalg.lstsq(terms, rates, rcond=None)[0]
     return float(1 - left.var() / max(rates.var(), 1e-9))
 
 
-def _mean(terms, number):
+def _mean(terms: np.ndarray, number: int) -> np.ndarray:
     """Return the mean of each row and those before it, `number` rows at most."""
     sums = np.cumsum(np.vstack([np.zeros((1, terms.shape[1])), terms]), axis=0)
     end = np.arange(1, len(terms) + 1)
@@ -272,7 +282,7 @@ def _mean(terms, number):
     return (sums[end] - sums[start]) / (end - start)[:, None]
 
 
-def _weighed(terms, share):
+def _weighed(terms: np.ndarray, share: float) -> np.ndarray:
     """Return the moving average in which each new row counts for a share."""
     found = terms.copy()
     for i in range(1, len(found)):

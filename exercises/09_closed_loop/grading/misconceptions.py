@@ -1,13 +1,19 @@
 """What a run along the wall looks like if the node has a common misconception; `wall.py` names the first that fits."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 from . import driving, fitted, law, searching, steering
 
-SETTLED = 7.0  # [s] after the start
-KEPT = 0.08  # [m] within which a distance is kept
+if TYPE_CHECKING:
+    from .wall import Run
+
+SETTLED, KEPT = 7.0, 0.08  # [s] after the start; [m] within which a distance is kept
 MEANS = {"mean", "median", "fmean", "average", "nanmean", "nanmedian", "percentile", "sum", "sorted", "sort"}
 # Wrong distances -> the functions one of which makes them.
 NEEDED = {"cos": {"cos"}, "sin": {"sin"}, "mean": MEANS, "max": {"max", "nanmax", "sorted", "sort", "argmax"}}
@@ -15,7 +21,7 @@ BEHIND = "behind the robot"
 FIRST = 15  # scans in which the robot was too near
 
 
-def explain(run):
+def explain(run: Run) -> str:
     """Return the misconception that fits the run; empty if none does."""
     looks = (
         open_loop,
@@ -78,14 +84,14 @@ def explain(run):
     return next((said for look in looks if (said := look(run))), "")
 
 
-def open_loop(run):
+def open_loop(run: Run) -> str:
     ends = run.recording.facts().get("endpoints", [])
     if any(end["kind"] == "subscription" and end["topic"] == "/lidar/scan" for end in ends):
         return ""
     return "your node does not subscribe to /lidar/scan, so it drives open loop, without feedback"
 
 
-def never_drives(run):
+def never_drives(run: Run) -> str:
     """Find out whether the commands let the robot stand from the start."""
     if np.abs(run.along).sum() > 0.3:
         return ""
@@ -108,17 +114,17 @@ def never_drives(run):
     return ""
 
 
-def measures(run):
+def measures(run: Run) -> str:
     times, bearings, ranges = scans(run)
     return steering.measures(run, times, bearings, ranges) if len(times) else ""
 
 
-def signs(run):
+def signs(run: Run) -> str:
     times, bearings, ranges = scans(run)
     return steering.signs(run, times, bearings, ranges) if len(times) else ""
 
 
-def point_and_rates(run, standing=False):
+def point_and_rates(run: Run, standing: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the nearest points of the side in all scans that were answered, the turning rates and the distances.
 
     Those in which the robot stands, such as against a wall, are left out: they are one scan many times over.
@@ -129,7 +135,7 @@ def point_and_rates(run, standing=False):
     return point[chosen], rates[chosen], asked[chosen]
 
 
-def unchanging(run):
+def unchanging(run: Run) -> str:
     values = run.recording.signal("topics/cmd_vel/angular/z").values
     share = (np.abs(values) > 1.45).mean() if len(values) else 0.0
     if share > 0.3 and (why := suspect(run.recording, "unit")):
@@ -140,19 +146,19 @@ def unchanging(run):
     return f"{said.partition(':')[0]}: {why}" if why else circling or said
 
 
-def one_way(run):
+def one_way(run: Run) -> str:
     if not len(scans(run)[0]) or not (said := law.one_way(run, *point_and_rates(run))):
         return ""
     return law.offset(*point_and_rates(run, standing=True)) or said
 
 
-def late(run):
+def late(run: Run) -> str:
     """Find out whether the commands answer an average of many scans, or by the file another range than the nearest."""
     why = suspect(run.recording, "delay", "farthest")
     return why or (law.late(*point_and_rates(run, standing=True), moving(run)) if len(scans(run)[0]) else "")
 
 
-def exchanged(run):
+def exchanged(run: Run) -> str:
     times = scans(run)[0]
     if not len(times):
         return ""
@@ -161,14 +167,14 @@ def exchanged(run):
     return searching.exchanged(run, point, rates, asked, ahead)
 
 
-def ahead_of(run, times):
+def ahead_of(run: Run, times: np.ndarray) -> np.ndarray:
     """Return linear.x [m/s] of the commands that answer the scans of these times [s]."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     index = np.searchsorted(signal.times / 1e9, times) + run.lag
     return signal.values[np.minimum(index, len(signal.values) - 1)]
 
 
-def steers_by(run):
+def steers_by(run: Run) -> str:
     """Find out which distance or bearing explains the commands, where those of the nearest point do not."""
     times, bearings, ranges = scans(run)
     if not len(times) or suspect(run.recording, "integral", "added", "delay"):
@@ -185,32 +191,32 @@ def steers_by(run):
     return said or fitted.times_speed(*seen, ahead_of(run, times[heard])[chosen])
 
 
-def moving(run):
+def moving(run: Run) -> np.ndarray:
     """Return at which of the answered scans the robot moves."""
     times = scans(run)[0]
     speed = np.interp(times, run.times, np.abs(run.speed)) + 0.2 * np.interp(times, run.times, np.abs(run.turning))
     return speed[steering.answered(run, times)[0]] > 0.03
 
 
-def offset(run):
+def offset(run: Run) -> str:
     return law.offset(*point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
-def opposite(run):
+def opposite(run: Run) -> str:
     return law.opposite(run, *point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
-def without_sign(run):
+def without_sign(run: Run) -> str:
     return law.without_sign(*point_and_rates(run)) if len(scans(run)[0]) else ""
 
 
-def deaf(run):
+def deaf(run: Run) -> str:
     said = law.deaf(*point_and_rates(run)) if len(scans(run)[0]) else ""
     why = suspect(run.recording, "whole metres") if said else ""
     return f"{said.partition(':')[0]}: {why}" if why else said
 
 
-def in_degrees(run):
+def in_degrees(run: Run) -> str:
     if said := suspect(run.recording, "angle"):
         return said
     values = np.abs(run.recording.signal("topics/cmd_vel/angular/z").values)
@@ -224,7 +230,7 @@ def in_degrees(run):
     )
 
 
-def counted_from_ray_zero(run):
+def counted_from_ray_zero(run: Run) -> str:
     """Find out whether bearings are counted from ray 0 in scans whose ray 0 looks elsewhere than ahead."""
     first = run.recording.signal("topics/lidar/scan/angle_min").values
     if not len(first) or abs(first[0]) < 0.1:
@@ -233,7 +239,7 @@ def counted_from_ray_zero(run):
     return f"{said}; here, angle_min is {first[0]:.2f}, {BEHIND if abs(first[0]) > 3.0 else 'not 0'}" if said else ""
 
 
-def mean_of_the_side(run):
+def mean_of_the_side(run: Run) -> str:
     """Find out whether a mean of ranges is taken for the distance: it is larger, so the robot comes too near."""
     late = run.times > SETTLED
     if not late.any() or np.median(run.error[late]) > -0.1:
@@ -241,7 +247,7 @@ def mean_of_the_side(run):
     return suspect(run.recording, "mean")
 
 
-def other_side(run):
+def other_side(run: Run) -> str:
     late = run.times > SETTLED
     own = np.mean(np.abs(run.error[late]) < KEPT)
     other = np.mean(np.abs(run.other_side - run.wanted)[late] < KEPT)
@@ -251,7 +257,7 @@ def other_side(run):
     return f'side is "{run.side}", but the robot keeps its distance from the wall on its {wrong}'
 
 
-def old_distance(run):
+def old_distance(run: Run) -> str:
     late = run.times > run.changed + 6.0
     if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2 or np.abs(run.along[late]).sum() < 1.0:
         return ""
@@ -273,7 +279,7 @@ def old_distance(run):
     )
 
 
-def seldom(run):
+def seldom(run: Run) -> str:
     """Find out whether the new distance is read too late, by the file, and was not answered at first."""
     if not len(scans(run)[0]) or not np.isfinite(run.changed) or not (why := suspect(run.recording, "seldom distance")):
         return ""
@@ -285,7 +291,7 @@ def seldom(run):
     return f"{why}; distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m at {run.changed:g} s"
 
 
-def wrong_sign(run):
+def wrong_sign(run: Run) -> str:
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     error = np.interp(signal.times / 1e9, run.times, run.error)
     clear = (np.abs(error) > 0.2) & (np.abs(signal.values) > 0.05)
@@ -297,7 +303,7 @@ def wrong_sign(run):
     return "the robot turns away from the wall where it is too far, and towards it where it is too near: a wrong sign"
 
 
-def wound_up(run):
+def wound_up(run: Run) -> str:
     near = (run.error < -0.12) & (run.sign * run.turning > 0.1)
     seconds = float(run.step[near & (run.ahead > run.wanted)].sum())
     if seconds < 1.0:
@@ -310,7 +316,7 @@ def wound_up(run):
     return f"{said}: log what your node takes for the distance, and the distance that it keeps, and how old they are"
 
 
-def saturated(run):
+def saturated(run: Run) -> str:
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     share = float((np.abs(signal.values) > 1.45).mean()) if len(signal) else 0.0
     if share < 0.3:
@@ -327,12 +333,12 @@ def saturated(run):
     return f"angular.z was at its limit in {share:.0%} of the commands: {why or often}"
 
 
-def integrated(run):
+def integrated(run: Run) -> str:
     """Find out whether commands are at their limit in a node that adds up errors without end."""
     return saturated(run) if suspect(run.recording, "integral") else ""
 
 
-def swings(run):
+def swings(run: Run) -> str:
     late = (run.times > SETTLED) & (np.abs(run.error) > 0.08)
     signs = np.sign(run.error[late])
     changes = int(np.count_nonzero(np.diff(signs)))
@@ -346,7 +352,7 @@ def swings(run):
     return f"{said}: only the distance is fed back, or the gain is too high for the time between two scans"
 
 
-def scans(run):
+def scans(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return times [s] (n,), bearings from ahead towards the side [rad] (m,) and ranges [m] (n, m) of all scans."""
     times, ranges = run.recording.arrays("topics/lidar/scan/ranges")
     first = run.recording.signal("topics/lidar/scan/angle_min").values
@@ -356,12 +362,12 @@ def scans(run):
     return times / 1e9, run.sign * (first[0] + step[0] * np.arange(len(ranges[0]))), np.array(ranges)
 
 
-def gaps(run):
+def gaps(run: Run) -> str:
     """Find out whether the robot is too near to its wall where rays beside it hit nothing, and there alone."""
     times, bearings, ranges = scans(run)
     if not len(times):
         return ""
-    beside = np.isposinf(ranges[:, np.abs(bearings - np.pi / 2) < 0.4]).any(axis=1)
+    beside = np.any(np.isposinf(ranges[:, np.abs(bearings - np.pi / 2) < 0.4]), axis=1)
     near = np.flatnonzero((times > 3.0) & (np.interp(times, run.times, run.error) < -0.1))[:FIRST]
     if len(near) < FIRST or beside[near].mean() < 0.8 or beside[times > 3.0].mean() > 0.6:
         return ""
@@ -371,7 +377,7 @@ def gaps(run):
     )
 
 
-def nearest_anywhere(run):
+def nearest_anywhere(run: Run) -> str:
     """Find out whether the robot has left its wall when something on its other side was nearer."""
     times, bearings, ranges = scans(run)
     lost = run.times[(run.times > 3.0) & (run.error > 0.2)]

@@ -1,21 +1,27 @@
 """How the nearest range is looked for, and what becomes of the commands on their way: `misconceptions.py` asks."""
 
+from __future__ import annotations
+
 import re
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
 
+if TYPE_CHECKING:
+    from .wall import Run
+
 FEWEST = 50  # commands
 NUMBER = re.compile(r"(\d+\.?\d*)(?: m)? are left out")
 
 
-def searched(run):
+def searched(run: Run) -> str:
     """Find out, by the file, whether another range than the nearest of this scan counts."""
     return suspect(run.recording, "nearest range", "divided")
 
 
-def left_out(run):
+def left_out(run: Run) -> str:
     """Find out whether the wall was at distances that the node leaves out by the file."""
     seen = run.distance[(run.times > 0.5) & np.isfinite(run.distance)]
     for about, worst in (("left out nearer", seen.min(initial=9.0)), ("left out farther", -seen.max(initial=0.0))):
@@ -27,13 +33,13 @@ def left_out(run):
     return ""
 
 
-def quarters(run):
+def quarters(run: Run) -> str:
     """Find out whether a part of the rays that looks to one side is taken for the other, by the file."""
     first = run.recording.signal("topics/lidar/scan/angle_min").values
     return suspect(run.recording, f"part {run.side}") if len(first) and first[0] < -3.0 else ""
 
 
-def halves(run):
+def halves(run: Run) -> str:
     """Find out whether each scan is answered by two commands, one that drives and one that turns."""
     ahead = run.recording.signal("topics/cmd_vel/linear/x")
     turns = run.recording.signal("topics/cmd_vel/angular/z").values
@@ -51,7 +57,7 @@ def halves(run):
     )
 
 
-def ramp(run):
+def ramp(run: Run) -> str:
     """Find out whether angular.z changes by no more than a fixed step from command to command, and often by that."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     steps = np.abs(np.diff(signal.values))
@@ -68,7 +74,7 @@ def ramp(run):
     )
 
 
-def turns_to_one_side(run):
+def turns_to_one_side(run: Run) -> str:
     """Find out whether a wall ahead makes the robot turn towards the side of its wall, always at the same rate."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     ahead = np.interp(signal.times / 1e9, run.times, np.minimum(run.ahead, 9.0))
@@ -88,7 +94,7 @@ def turns_to_one_side(run):
     )
 
 
-def stuck(run):
+def stuck(run: Run) -> str:
     """Find out whether angular.z no longer changes from some time on, until the end."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     other = np.flatnonzero(np.abs(signal.values - signal.values[-1:]) > 1e-3)
@@ -104,7 +110,7 @@ def stuck(run):
     )
 
 
-def exchanged(run, point, rates, asked, ahead):
+def exchanged(run: Run, point: np.ndarray, rates: np.ndarray, asked: np.ndarray, ahead: np.ndarray) -> str:
     """Find out whether linear.x follows the wall as angular.z should, and angular.z the speed limit.
 
     `ahead` is linear.x [m/s] in the commands of `rates`.

@@ -5,7 +5,14 @@ that thing was much the same (the nearest neighbours, as in k-NN regression). If
 prediction is right: its share of the variance that is explained, R squared, is near 1.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from .wall import Run
 
 NEIGHBOURS = 4
 APART = 8  # scans between a scan and its neighbours: those beside it are alike whatever the node measures
@@ -18,14 +25,14 @@ THICK = 0.04  # [m] ranges that are as near as the nearest one, with noise
 EDGES = (-45, 0, 30, 50, 75, 90, 105, 130, 150)  # [degrees] of sectors that a node may look at
 
 
-def measured(bearings, ranges):
+def measured(bearings: np.ndarray, ranges: np.ndarray) -> dict[str, np.ndarray]:
     """Return what a node may measure: by name, an array (scans, numbers); bearings grow from ahead to the side."""
     ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
 
-    def nearest(chosen):
+    def nearest(chosen: np.ndarray) -> np.ndarray:
         return nearest_point(bearings[chosen], ranges[:, chosen])
 
-    def towards(direction, width=0.06):
+    def towards(direction: float, width: float = 0.06) -> np.ndarray:
         off = np.abs(np.remainder(bearings - direction + np.pi, 2 * np.pi) - np.pi)
         return ranges[:, off < width].min(axis=1)[:, None]
 
@@ -44,14 +51,16 @@ def measured(bearings, ranges):
     }
 
 
-def nearest_point(bearings, ranges):
+def nearest_point(bearings: np.ndarray, ranges: np.ndarray) -> np.ndarray:
     """Return range and bearing of the nearest point, shape (scans, 2)."""
     least = ranges.min(axis=1)
     there = ranges < least[:, None] + THICK
     return np.stack([least, (there * bearings).sum(axis=1) / there.sum(axis=1)], axis=1)
 
 
-def sector(bearings, ranges, rates, asked):
+def sector(
+    bearings: np.ndarray, ranges: np.ndarray, rates: np.ndarray, asked: np.ndarray
+) -> tuple[tuple[int, int], float]:
     """Return the sector (from, to) [degrees] whose nearest point, or distance, explains most, and the share of it."""
     ranges = np.where(np.isfinite(ranges) & (ranges > 0.05), ranges, NOTHING)
     best = (0, 0), 0.0
@@ -66,7 +75,7 @@ def sector(bearings, ranges, rates, asked):
     return best
 
 
-def explained(values, rates, asked):
+def explained(values: np.ndarray, rates: np.ndarray, asked: np.ndarray) -> float:
     """Return which share of the variance of turning rates [rad/s] some measured values (n, k) explain.
 
     `asked` is the distance [m] that the parameter asked for at each time, which nodes depend on as well.
@@ -86,7 +95,7 @@ def explained(values, rates, asked):
     return float(1 - (off**2).mean() / rates[near].var())
 
 
-def follows(run, times, bearings, ranges):
+def follows(run: Run, times: np.ndarray, bearings: np.ndarray, ranges: np.ndarray) -> dict[str, Any]:
     """Return what the turning rates depend on: by name, the share of their variance that it explains."""
     heard, rates, asked = answered(run, times)
     if heard.sum() < FEWEST:
@@ -95,7 +104,7 @@ def follows(run, times, bearings, ranges):
     return {name: explained(values, rates, asked) for name, values in found.items()}
 
 
-def lag(run, times, bearings, ranges):
+def lag(run: Run, times: np.ndarray, bearings: np.ndarray, ranges: np.ndarray) -> int:
     """Return how many commands late the answer to a scan comes: 1 if a timer runs before the scan is heard, else 0."""
     best = []
     for late in (0, 1):
@@ -106,7 +115,7 @@ def lag(run, times, bearings, ranges):
     return int(1 - best[1] < 0.7 * (1 - best[0]))
 
 
-def answered(run, times):
+def answered(run: Run, times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return to which scans a command came, the turning rates [rad/s] towards the side, and the distances asked for."""
     signal = run.recording.signal("topics/cmd_vel/angular/z")
     index = np.searchsorted(signal.times / 1e9, times) + getattr(run, "lag", 0)
@@ -115,7 +124,7 @@ def answered(run, times):
     return heard, rates, np.interp(times[heard], run.times, run.wanted)
 
 
-def measures(run, times, bearings, ranges):
+def measures(run: Run, times: np.ndarray, bearings: np.ndarray, ranges: np.ndarray) -> str:
     """Return words on what the node measures, if it is clearly something else than it should be; else nothing."""
     share = follows(run, times, bearings, ranges)
     if not share:
@@ -168,7 +177,7 @@ def measures(run, times, bearings, ranges):
     return ""
 
 
-def signs(run, times, bearings, ranges):
+def signs(run: Run, times: np.ndarray, bearings: np.ndarray, ranges: np.ndarray) -> str:
     """Return words on a term of the turning rate with the wrong sign, by a linear fit; else nothing."""
     heard, rates, asked = answered(run, times)
     if heard.sum() < FEWEST:
@@ -196,6 +205,6 @@ def signs(run, times, bearings, ranges):
     return ""
 
 
-def _clearly(share, other):
+def _clearly(share: float, other: float) -> bool:
     """Return whether one share leaves less than half as much unexplained as another."""
     return 1 - share < 0.5 * (1 - other)

@@ -4,11 +4,15 @@ The walls are the boxes of the model `walls`. The distance to the wall is that o
 side that the robot is to follow. `misconceptions.py` says what a wrong run looks like.
 """
 
+from __future__ import annotations
+
 import json
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording, Signal
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.true_pose import heading
 
@@ -28,9 +32,11 @@ PARTS = ((-0.18, 0.12, -0.1, 0.1), (-0.05, 0.05, -0.14, 0.14))
 class Run:
     """The run at the times [s] of the truth, shape (n,), as all checks see it."""
 
-    def __init__(self, recording):
+    def __init__(self, recording: Recording) -> None:
         truth = [recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw", "linear_x", "angular_z")]
         self.recording = recording
+        self.lag = 0  # scans between that which a command answers and the last one before it
+        self.lag = 0  # scans between that which a command answers and the last one before it
         self.times = truth[0].times / 1e9
         self.x, self.y, self.yaw, self.speed, self.turning = (signal.values for signal in truth)
         self.step = np.diff(self.times, append=self.times[-1:])
@@ -52,13 +58,13 @@ class Run:
         self.error = self.distance - self.wanted  # [m] by which the robot is too far from its wall
         self.along = self.speed * self.step  # [m] driven forward in each step
 
-    def _seen(self, points):
+    def _seen(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how far ahead and to the left [m] points (m, 2) are at each time, both (n, m)."""
         east, north = points[:, 0] - self.x[:, None], points[:, 1] - self.y[:, None]
         c, s = np.cos(self.yaw)[:, None], np.sin(self.yaw)[:, None]
         return c * east + s * north, c * north - s * east
 
-    def _gap(self, walls):
+    def _gap(self, walls: list[tuple[np.ndarray, float, float, float]]) -> np.ndarray:
         """Return the distance [m] between the robot's outline and the nearest wall, (n,)."""
         ahead, left = self._seen(np.concatenate([_corners(*wall) for wall in walls]))
         gap = np.full(len(self.times), np.inf)
@@ -74,7 +80,7 @@ class Run:
                         gap = np.minimum(gap, _outside(along, across, -length, length, -width, width))
         return gap
 
-    def allowed(self, times):
+    def allowed(self, times: np.ndarray) -> np.ndarray:
         """Return the speed limit [m/s] at some times [s]: while it changes, the larger of the two."""
         since, values = self.limits.times / 1e9, self.limits.values
         if not len(values):
@@ -82,7 +88,7 @@ class Run:
         now, before = (np.maximum(np.searchsorted(since, times - ago, side="right") - 1, 0) for ago in (0, AT_ONCE))
         return np.maximum(values[now], values[before])
 
-    def within(self, start, end, tolerance):
+    def within(self, start: float, end: float, tolerance: float) -> tuple[float, float]:
         """Return which share of the way between two times [s] was driven within `tolerance` [m], and the way [m].
 
         Where the robot drives backwards or off its wall, the way counts as outside.
@@ -93,9 +99,11 @@ class Run:
         return (float(self.along[chosen][inside].sum() / way) if way > 0.0 else 0.0), float(way)
 
 
-def _wall(recording, entity):
+def _wall(recording: Recording, entity: str) -> tuple[np.ndarray, float, float, float]:
     """Return the centre [m], the direction [rad], half the length and half the width [m] of a wall."""
     link, shape = recording.poses(entity.rpartition("/")[0]), recording.static(entity)
+    assert link is not None, entity
+    assert link is not None, entity
     half_length, half_width, _ = shape["Boxes3D:half_sizes"]
     return (
         link.positions[0, :2],
@@ -105,7 +113,7 @@ def _wall(recording, entity):
     )
 
 
-def _outline(centre, yaw, half_length, half_width):
+def _outline(centre: np.ndarray, yaw: float, half_length: float, half_width: float) -> np.ndarray:
     """Return points on both long sides of a wall, (m, 2) [m]."""
     along = np.linspace(-half_length, half_length, 2 + round(2 * half_length / SPACING))
     direction, normal = np.array((np.cos(yaw), np.sin(yaw))), np.array((-np.sin(yaw), np.cos(yaw)))
@@ -113,22 +121,22 @@ def _outline(centre, yaw, half_length, half_width):
     return np.concatenate(sides)
 
 
-def _corners(centre, yaw, half_length, half_width):
+def _corners(centre: np.ndarray, yaw: float, half_length: float, half_width: float) -> np.ndarray:
     return _outline(centre, yaw, half_length, half_width)[[0, -1]]
 
 
-def _outside(x, y, low_x, high_x, low_y, high_y):
+def _outside(x: np.ndarray, y: np.ndarray, low_x: float, high_x: float, low_y: float, high_y: float) -> np.ndarray:
     """Return how far [m] points are outside of a rectangle."""
     return np.hypot(np.maximum(np.maximum(low_x - x, x - high_x), 0), np.maximum(np.maximum(low_y - y, y - high_y), 0))
 
 
-def _finding(run, passed, expected, measured, at=None):
+def _finding(run: Run, passed: bool, expected: str, measured: str, at: float | None = None) -> Finding:
     """Return a finding; one that failed asks which misconception fits."""
     why = "" if passed else misconceptions.explain(run)
     return Finding(bool(passed), expected, measured, None if at is None else round(float(at), 2), explanation=why)
 
 
-def keeps_distance(recording, parameters):
+def keeps_distance(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Check the distance before the parameter changes, or after that (`changed = true`)."""
     run = Run(recording)
     tolerance, share, settle = parameters["tolerance"], parameters["share"], parameters["settle"]
@@ -160,7 +168,7 @@ def keeps_distance(recording, parameters):
     return _finding(run, passed, expected, measured, None if passed else run.times[off][0] if off.any() else start)
 
 
-def follows(recording, parameters):
+def follows(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Check how far the robot drove forward with its wall beside it."""
     run = Run(recording)
     near = (np.abs(run.error) <= WIDE) & (run.speed > 0)
@@ -178,7 +186,7 @@ def follows(recording, parameters):
     )
 
 
-def _slow(run):
+def _slow(run: Run) -> str:
     """Return why a robot that keeps its distance is slow; empty if it is not."""
     times = run.recording.arrays("topics/lidar/scan/ranges")[0] / 1e9
     return (
@@ -190,7 +198,7 @@ def _slow(run):
     )
 
 
-def _late(run):
+def _late(run: Run) -> str:
     """Return why a robot that weaves is slow, if its commands come late; empty if not."""
     if count_swings(run.turning, WEAVES) < max(6, np.abs(run.along).sum()):
         return ""
@@ -198,7 +206,7 @@ def _late(run):
     return f"the robot weaves, which makes it slow: {why}" if why else ""
 
 
-def touches_nothing(recording, parameters):
+def touches_nothing(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Check that the robot never touches a wall."""
     run = Run(recording)
     at = run.times[run.touches][0] if run.touches.any() else None
@@ -206,7 +214,7 @@ def touches_nothing(recording, parameters):
     return _finding(run, at is None, "the robot touches no wall", where, at)
 
 
-def keeps_limits(recording, parameters):
+def keeps_limits(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Check every command that arrived."""
     run, most = Run(recording), parameters["turning"]
     new = f", and {run.limits.values[-1]:g} m/s from {run.limits.times[-1] / 1e9:g} s on" if len(run.limits) > 1 else ""
@@ -232,7 +240,7 @@ def keeps_limits(recording, parameters):
     return Finding(True, expected, "every command was")
 
 
-def old_limit(run, signal, worst):
+def old_limit(run: Run, signal: Signal, worst: float) -> str:
     """Return why linear.x still goes up to `worst` [m/s] after speed_limit was set to less."""
     changed = run.limits.times[-1]
     before = signal.values[signal.times < changed]
@@ -245,7 +253,7 @@ def old_limit(run, signal, worst):
     )
 
 
-def too_fast(run, worst):
+def too_fast(run: Run, worst: float) -> str:
     """Return why linear.x goes up to `worst` [m/s]; empty if it is negative, or nothing is known."""
     said = suspect(run.recording, "parameter speed_limit")
     if worst < 0 or (why := driving.speed_by_distance(run)):
@@ -255,7 +263,7 @@ def too_fast(run, worst):
     return f"linear.x goes up to {worst:.2f} m/s, and speed_limit is {run.limit:g} m/s: {why}"
 
 
-def limits_missed(name, values, low, high):
+def limits_missed(name: str, values: np.ndarray, low: float, high: float) -> str:
     """Return what values look like that are beyond their limits."""
     if np.unique(np.round(values, 3)).size == 1:
         return f"{name} is always {values[0]:.2f}"
@@ -272,7 +280,7 @@ def limits_missed(name, values, low, high):
     return f"{name} is not limited, or something is added to it after that"
 
 
-def drives_steadily(recording, parameters):
+def drives_steadily(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Check how often the robot changed from turning left to turning right or back."""
     run = Run(recording)
     swings, metres = count_swings(run.turning, parameters["turning"]), float(np.abs(run.along).sum())
@@ -281,7 +289,7 @@ def drives_steadily(recording, parameters):
     return _finding(run, swings <= most, expected, f"{swings} changes in {metres:.1f} m")
 
 
-def count_swings(turning, least):
+def count_swings(turning: np.ndarray, least: float) -> int:
     """Return how often a turning rate goes from beyond one of -least and least [rad/s] to beyond the other."""
     signs = np.sign(turning)[np.abs(turning) > least]
     return int(np.count_nonzero(np.diff(signs)))

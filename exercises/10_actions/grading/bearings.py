@@ -1,6 +1,14 @@
 """What a server takes for its heading, or for the direction to a waypoint, as the way tells that the robot drives."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 DRIVES = 0.08  # [m/s]
 FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead
@@ -13,7 +21,7 @@ ENOUGH = 2.0  # [m] of the way, before the robot comes to a wall
 HALF_A_SECOND = 10  # samples
 ASIDE = 0.8  # [rad]
 RIGHT = "the heading is 2 * atan2(orientation.z, orientation.w), in radians"
-HEADINGS = {
+HEADINGS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     f"its heading is in degrees, and atan2 returns radians: {RIGHT}": np.degrees,
     f"its heading is half of what it is: {RIGHT}": lambda yaw: yaw / 2,
     f"its heading has the wrong sign: {RIGHT}": lambda yaw: -yaw,
@@ -33,11 +41,11 @@ DIRECTIONS = {
 }
 
 
-def _wrapped(angle):
+def _wrapped(angle: np.ndarray) -> np.ndarray:
     return np.remainder(angle + np.pi, 2 * np.pi) - np.pi
 
 
-def _missed(way, points):
+def _missed(way: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, int]:
     """Return the first waypoint that a way misses, and where in the way the robot sets out for it."""
     after = 0
     for point in points:
@@ -48,7 +56,7 @@ def _missed(way, points):
     return points[-1], len(way) - 1
 
 
-def wrong_bearing(run, chosen, points):
+def wrong_bearing(run: Run, chosen: np.ndarray, points: np.ndarray) -> str:
     """Return by which wrong angle the server faces a waypoint that the robot misses; empty if none fits its way."""
     way, yaw, speed, rate = (each[chosen] for each in (run.way, run.heading, run.linear.values, run.angular.values))
     missed, after = _missed(way, points)
@@ -85,7 +93,7 @@ def wrong_bearing(run, chosen, points):
     return ""
 
 
-def backwards(run):
+def backwards(run: Run) -> str:
     """Find out whether a server sends negative speeds nearly always."""
     sent = run.recording.signal("topics/cmd_vel/linear/x").values
     sent = sent[np.abs(sent) > DRIVES / 4]
@@ -97,7 +105,7 @@ def backwards(run):
     )
 
 
-def driven_past(run, chosen, points):
+def driven_past(run: Run, chosen: np.ndarray, points: np.ndarray) -> str:
     """Find out whether a robot drives past a waypoint on a straight line, without turning while it drives."""
     way, speed, rate = (each[chosen] for each in (run.way, run.linear.values, run.angular.values))
     missed, after = _missed(way, points)
@@ -114,7 +122,7 @@ def driven_past(run, chosen, points):
     )
 
 
-def _one_sided(run, error):
+def _one_sided(run: Run, error: np.ndarray) -> str:
     """Find out whether all turns of a run are to one side, where the waypoint is on the other."""
     sent = run.recording.signal("topics/cmd_vel/angular/z").values
     if len(sent) < FEWEST or np.abs(sent).max() < TURNS:
@@ -128,7 +136,7 @@ def _one_sided(run, error):
     return ""
 
 
-def _turned_past(direction, yaw, speed, rate):
+def _turned_past(direction: np.ndarray, yaw: np.ndarray, speed: np.ndarray, rate: np.ndarray) -> str:
     """Find out whether a robot turns on over the direction of the waypoint and does not drive there."""
     error = _wrapped(direction - yaw)
     ahead = np.flatnonzero(np.abs(error) < 0.1)
@@ -147,7 +155,7 @@ def _turned_past(direction, yaw, speed, rate):
     return f"The robot turned past the waypoint, which was ahead of it, and did not drive: {why}"
 
 
-def _blocked(way):
+def _blocked(way: np.ndarray) -> int:
     """Return from where on the robot does not get away from its place any more, as at a wall."""
     if len(way) <= HALF_A_SECOND:
         return len(way)
@@ -156,7 +164,7 @@ def _blocked(way):
     return int(moving[-1]) + HALF_A_SECOND if len(moving) else len(way)
 
 
-def _fit(error, driving, rate):
+def _fit(error: np.ndarray, driving: np.ndarray, rate: np.ndarray) -> float:
     """Return how often a robot that drives has an error of nearly 0, and one that turns makes its error smaller."""
     fits = [float(np.mean(np.abs(error[driving]) < FACES))]
     turning = (np.abs(error) > FACES) & (np.abs(error) < np.pi - FACES) & (np.abs(rate) > 0.1)

@@ -1,13 +1,20 @@
 """What `visited` of a result counts, if it is not the waypoints at which the robot has been."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
 
+if TYPE_CHECKING:
+    from .patrol_checks import Run
+
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 
 
-def of_a_cancelled(run, found, counts):
+def of_a_cancelled(run: Run, found: dict[str, Any], counts: set[int]) -> str:
     """Return why `visited` of the cancelled patrol is wrong; `counts` are those that are right."""
     visited, fewest = found["visited"], min(counts)
     if _elsewhere(run):
@@ -34,7 +41,7 @@ def of_a_cancelled(run, found, counts):
     return f"visited is {visited}, but the robot had been at {been}"
 
 
-def _elsewhere(run):
+def _elsewhere(run: Run) -> bool:
     """Return whether the first patrol was driven, and not to its waypoints."""
     start, end = run.period("patrol")
     way = run.way[(run.times >= start) & (run.times <= end)]
@@ -42,7 +49,7 @@ def _elsewhere(run):
     return driven > 0.5 and run.nearest("patrol", end)[0] < len(run.waypoints("patrol"))
 
 
-def counts_on(run, found, count):
+def counts_on(run: Run, found: dict[str, int | str], count: int) -> str:
     """Find out whether `visited` of the cancelled patrol goes on from the patrol before; `count` is the right one."""
     before = run.one("result", "patrol")
     if before is None or not before["visited"] or found["visited"] != before["visited"] + count:
@@ -53,7 +60,7 @@ def counts_on(run, found, count):
     )
 
 
-def other_visited(run, found, total):
+def other_visited(run: Run, found: dict[str, Any], total: int) -> str:
     """Return what `visited` of a patrol that was driven to its end counts."""
     if found["visited"] == total - 1:
         return (

@@ -1,12 +1,20 @@
 """What the distances of the feedback are, if not those from the robot to the waypoint."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 FEWEST = 5  # messages
 CLOSE = 0.05  # [m]
 
 
-def other_distance(run, said, points):
+def other_distance(run: Run, said: list[Any], points: list[Any]) -> str:
     """Return what else the distances of the feedback are; empty if that is not known."""
     given = np.array([each["distance"] for each in said])
     for words, values in other_feedback(run, said, points):
@@ -17,7 +25,7 @@ def other_distance(run, said, points):
     return ""
 
 
-def _closely(run, said, points):
+def _closely(run: Run, said: list[Any], points: list[Any]) -> str:
     """Return what else the distances are to a few centimetres; empty if nothing fits, or they hardly change."""
     given = np.array([each["distance"] for each in said])
     if np.ptp(given) < 0.3:
@@ -28,7 +36,7 @@ def _closely(run, said, points):
     return ""
 
 
-def believed(run, goal):
+def believed(run: Run, goal: str) -> str:
     """Return what a server that misses a waypoint takes for its distance; empty if nothing else fits closely."""
     points = np.array(run.waypoints(goal), dtype=float)
     said = [each for each in run.all("feedback", goal) if 0 <= each["waypoint"] < len(points)]
@@ -42,7 +50,7 @@ def believed(run, goal):
     return ""
 
 
-def by_reckoning(run, goal):
+def by_reckoning(run: Run, goal: str) -> str:
     """Find out whether the distances of the feedback go to 0 without the robot, and what they are instead."""
     said, points = run.all("feedback", goal), np.array(run.waypoints(goal), dtype=float)
     said = [each for each in said if 0 <= each["waypoint"] < len(points)]
@@ -63,14 +71,14 @@ def by_reckoning(run, goal):
     return ""
 
 
-def other_feedback(run, said, points):
+def other_feedback(run: Run, said: list[Any], points: list[Any]) -> Iterator[tuple[str, np.ndarray]]:
     """Yield what else distances may be: words, and the values they would have."""
     places = np.searchsorted(run.times, [each["at"] for each in said]).clip(0, len(run.times) - 1)
     way, index = run.way[places], np.array([each["waypoint"] for each in said])
     steps = np.hypot(*np.diff(run.way, axis=0, prepend=run.way[:1]).T)
     targets = np.array(points)
 
-    def to(numbers):
+    def to(numbers: np.ndarray) -> np.ndarray:
         return np.hypot(*(way - targets[np.clip(numbers, 0, len(targets) - 1)]).T)
 
     here = targets[np.clip(index, 0, len(targets) - 1)] - way

@@ -5,6 +5,11 @@ Its orders say which goals: `patrol` has `waypoints` [m] and `speed` [m/s], `too
 number, an `event`, the name of the `goal`, and what belongs to it.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 import rclpy
 from action_msgs.msg import GoalStatus
 from course_agent.exercise_node import orders, ready, report
@@ -26,7 +31,7 @@ BUSY_AFTER = 1.0  # [s] after a goal was accepted, another one is sent
 TO_BE_REJECTED = ("empty", "too_fast", "backwards", "standing", "second")
 
 
-def interface_fault():
+def interface_fault() -> tuple[Any, str]:
     """Return the action's class and what is wrong with it: one of them is empty."""
     try:
         from patrol_interfaces.action import Patrol
@@ -50,11 +55,11 @@ def interface_fault():
 class Dispatcher(Node):
     """Sends one goal after another; an answer, or a time, brings the next."""
 
-    def __init__(self, script):
+    def __init__(self, script: dict[str, Any]) -> None:
         super().__init__("dispatcher")
         self.script = script
         self.number = 0
-        self.waits = []
+        self.waits: list[Any] = []
         self.action, fault = interface_fault()
         if fault:
             self.after(0.2, lambda: self.say("interface", "", fault=fault))
@@ -62,7 +67,7 @@ class Dispatcher(Node):
         self.client = ActionClient(self, self.action, "/patrol")
         self.after(0.5, self.begin)
 
-    def begin(self):
+    def begin(self) -> None:
         self.say("interface", "", fault="")
         patrol = self.script["patrol"]
         if not self.client.wait_for_server(timeout_sec=0.0):  # not of the run's time, but until discovery is done
@@ -74,30 +79,30 @@ class Dispatcher(Node):
         self.send("standing", patrol["waypoints"], 0.0)
         self.after(0.5, lambda: self.send("patrol", **patrol))
 
-    def after(self, seconds, call):
+    def after(self, seconds: float, call: Callable[[], None]) -> None:
         """Call something once."""
 
-        def once():
+        def once() -> None:
             timer.cancel()
             call()
 
-        timer = self.create_timer(seconds, once)
+        timer: Any = self.create_timer(seconds, once)
         self.waits.append(timer)
 
-    def say(self, event, goal, **more):
+    def say(self, event: str, goal: str, **more: Any) -> None:
         self.number += 1
         report(number=self.number, event=event, goal=goal, **more)
 
-    def send(self, name, waypoints, speed):
+    def send(self, name: str, waypoints: list[list[float]], speed: float) -> None:
         points = [Point(x=float(x), y=float(y)) for x, y in waypoints]
         goal = self.action.Goal(waypoints=points, speed=float(speed))
         self.say("sent", name, waypoints=waypoints, speed=speed)
 
-        def feedback(message):
+        def feedback(message: Any) -> Any:
             said = message.feedback
             self.say("feedback", name, waypoint=said.waypoint, distance=said.distance)
 
-        def answered(future):
+        def answered(future: Any) -> None:
             handle = future.result()
             self.say("accepted" if handle.accepted else "rejected", name)
             if handle.accepted:
@@ -106,7 +111,7 @@ class Dispatcher(Node):
             elif name == "patrol":
                 self.next_of(name)
 
-        def done(future):
+        def done(future: Any) -> None:
             result = future.result()
             status = STATUS.get(result.status, str(result.status))
             self.say("result", name, status=status, visited=result.result.visited)
@@ -114,7 +119,7 @@ class Dispatcher(Node):
 
         self.client.send_goal_async(goal, feedback).add_done_callback(answered)
 
-    def accepted(self, name, handle):
+    def accepted(self, name: str, handle: Any) -> None:
         if name in TO_BE_REJECTED:  # it must not spoil the rest
             handle.cancel_goal_async()
         if name == "patrol":
@@ -122,15 +127,15 @@ class Dispatcher(Node):
         if name == "cancelled":
             self.after(self.script["cancelled"]["after"], lambda: self.cancel(name, handle))
 
-    def cancel(self, name, handle):
+    def cancel(self, name: str, handle: Any) -> None:
         self.say("cancel", name)
 
-        def answered(future):
+        def answered(future: Any) -> Any:
             self.say("cancelling" if future.result().goals_canceling else "not_cancelling", name)
 
         handle.cancel_goal_async().add_done_callback(answered)
 
-    def next_of(self, name):
+    def next_of(self, name: str) -> Any:
         if name == "patrol":
             goal = self.script["cancelled"]
             self.after(0.5, lambda: self.send("cancelled", goal["waypoints"], goal["speed"]))
@@ -138,7 +143,7 @@ class Dispatcher(Node):
             self.after(1.0, lambda: self.send("again", **self.script["again"]))
 
 
-def main():
+def main() -> None:
     rclpy.init()
     node = Dispatcher(orders())
     ready()

@@ -1,11 +1,17 @@
 """Why a goal beside or after the first one fails: it spoils the one under way, is refused, or goes elsewhere."""
 
+from __future__ import annotations
+
 import json
 from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 MOVED = 0.25  # [m] from the start of a patrol: then its direction is known
 STRAIGHT = 0.15  # [rad]
@@ -22,7 +28,7 @@ HEADED = {
 }
 
 
-def spoilt(run):
+def spoilt(run: Run) -> str:
     """Return what a second goal did to the patrol under way; empty if the patrol went its way until its end."""
     taken, found = run.one("accepted", "second"), run.one("result", "patrol")
     if taken is None or (found is not None and found["at"] < taken["at"]):
@@ -44,7 +50,7 @@ def spoilt(run):
     return ""
 
 
-def on_its_way(run, at):
+def on_its_way(run: Run, at: float) -> Any:
     """Return whether the robot came nearer to its waypoint in the half second before a time [s]."""
     count, _ = run.nearest("patrol", at)
     point = np.array(run.waypoints("patrol")[min(count, len(run.waypoints("patrol")) - 1)])
@@ -53,7 +59,7 @@ def on_its_way(run, at):
     return len(left) > 1 and left[0] - left[-1] > GOES
 
 
-def leftover(run):
+def leftover(run: Run) -> str:
     """Return that the patrol after the cancelled one drives to a waypoint of that one first; empty if it does not."""
     found, cancelled = run.one("result", "again"), run.one("result", "cancelled")
     if run.one("accepted", "again") is None or cancelled is None:
@@ -78,7 +84,7 @@ def leftover(run):
     return ""
 
 
-def _all_reached(way, points):
+def _all_reached(way: np.ndarray, points: list[Any]) -> bool:
     """Return whether a way (n, 2) leads to all of several points, in their order."""
     for point in points:
         left = np.hypot(*(way - np.array(point)).T) if len(way) else np.array([np.inf])
@@ -88,7 +94,7 @@ def _all_reached(way, points):
     return len(points) > 1
 
 
-def _beside(point, corners):
+def _beside(point: list[float], corners: np.ndarray) -> float:
     """Return how far a point is from the straight lines between corners (n, 2) [m]."""
     off = []
     for one, other in pairwise(corners):
@@ -98,7 +104,7 @@ def _beside(point, corners):
     return min(off)
 
 
-def follows(run, since):
+def follows(run: Run, since: float) -> bool:
     """Return whether the robot drives to the waypoint of the second goal after a time [s], and not to its own."""
     _, end = run.period("patrol")
     later = (run.times >= since) & (run.times <= end)
@@ -109,13 +115,13 @@ def follows(run, since):
     return left[-1] < THERE or (left[0] - left[-1] > 0.5 and _straight(way, place))
 
 
-def _straight(way, place):
+def _straight(way: np.ndarray, place: np.ndarray) -> bool:
     """Return whether the last half metre of a way leads straight to a place."""
     gone = np.hypot(*(way - way[-1]).T)
     return gone.max() > 0.5 and _apart(way[-1] - way[int(np.argmax(gone <= 0.5))], place - way[-1]) < STRAIGHT
 
 
-def of_a_refused_goal(run):
+def of_a_refused_goal(run: Run) -> str:
     """Return that the patrol under way is changed by a goal that was rejected; empty if it is not."""
     refused = run.one("rejected", "second")
     if refused is None or not follows(run, refused["at"]):
@@ -127,7 +133,7 @@ def of_a_refused_goal(run):
     )
 
 
-def slowed(run):
+def slowed(run: Run) -> tuple[float, float] | None:
     """Return the speed [m/s] that a patrol takes over from a second goal that was rejected, and when; else None."""
     refused = run.one("rejected", "second")
     if refused is None:
@@ -140,7 +146,7 @@ def slowed(run):
     return fastest, since
 
 
-def of_a_refused_speed(run):
+def of_a_refused_speed(run: Run) -> str:
     """Return why a patrol goes on at the speed of a goal that was rejected."""
     said = suspect(run.recording, "stored_goal")
     return (
@@ -149,7 +155,7 @@ def of_a_refused_speed(run):
     )
 
 
-def refused(run, goal):
+def refused(run: Run, goal: str) -> str:
     """Return for which other reason than a patrol under way a goal is refused; empty if none is known."""
     sent = run.one("sent", goal)
     trial = json.loads(run.recording.properties("run").get("trial_parameters", "{}"))
@@ -161,7 +167,7 @@ def refused(run, goal):
     return ""
 
 
-def headed(run, goal):
+def headed(run: Run, goal: str) -> str:
     """Return what else the first waypoint of a goal was taken for, as the direction tells in which the robot went."""
     if run.one("accepted", goal) is None:
         return ""
@@ -182,12 +188,12 @@ def headed(run, goal):
     return ""
 
 
-def _apart(one, other):
+def _apart(one: np.ndarray, other: np.ndarray) -> float:
     """Return the angle between two directions [rad]."""
     return abs(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other))
 
 
-def of_a_later_goal(run):
+def of_a_later_goal(run: Run) -> str:
     """Return why a patrol after the first one goes elsewhere, or nowhere; empty if that is not known."""
     if said := suspect(run.recording, "anew"):
         return f"What is kept of one goal spoils the next one: {said}"

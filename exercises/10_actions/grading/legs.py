@@ -1,19 +1,27 @@
 """When a server leaves a waypoint too early, by the time that has gone, and where it goes after the last one."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 MISSED = 0.17  # [m] from a waypoint that was left
 SAME = 0.12  # [s] by which equal times may differ
 GOALS = ("patrol", "cancelled", "again")
 
 
-def left_by_time(run):
+def left_by_time(run: Run) -> str:
     """Return that waypoints are left after a time, wherever the robot is; empty if no time fits, or too few are left.
 
     Two legs at least, of unequal lengths, must have been left so.
     """
     legs = [each for goal in GOALS if run.one("accepted", goal) for each in _missed(run, goal)]
-    lengths, times, speeds, left = (np.array(each) for each in zip(*legs, strict=True)) if legs else ([],) * 4
+    lengths, times, speeds, left = np.array(legs).reshape(-1, 4).T
     if len(legs) < 2 or np.ptp(lengths) < 0.1:
         return ""
     farthest = f"{left.max():.2f} m away"
@@ -32,7 +40,7 @@ def left_by_time(run):
     return ""
 
 
-def goes_on(run):
+def goes_on(run: Run) -> str:
     """Return where the robot drives after the last waypoint of the patrol, if it goes on to the first, or back."""
     points, (start, end) = np.array(run.waypoints("patrol"), dtype=float), run.period("patrol")
     chosen = (run.times >= start) & (run.times <= end)
@@ -49,7 +57,7 @@ def goes_on(run):
     return ""
 
 
-def _missed(run, goal):
+def _missed(run: Run, goal: str) -> Iterator[tuple[float, float, float, float]]:
     """Yield length [m], time [s], speed [m/s] and what is left [m] of each leg that ends too far from its waypoint."""
     points, (start, end) = run.waypoints(goal), run.period(goal)
     said, ended = run.all("feedback", goal), run.one("result", goal)

@@ -1,10 +1,17 @@
 """What a patrol looks like if its server has a common misconception; `patrol_checks.py` asks for those that fit."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 from . import bearings, distances, legs
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 AT_ONE = 0.2  # [m] from a waypoint
 SLOW = 0.5  # [s] between two commands
@@ -16,7 +23,7 @@ TOO_FAST = 1.4  # times the speed of the goal
 STAYS = 0.4  # [m] from the last place
 
 
-def went_elsewhere(run, goal, until):
+def went_elsewhere(run: Run, goal: str, until: float) -> str:
     """Return where the robot went instead of to the waypoints; empty if that is not known."""
     points = np.array(run.waypoints(goal))
     start, _ = run.period(goal)
@@ -48,7 +55,7 @@ def went_elsewhere(run, goal, until):
     )
 
 
-def last_only(run, goal, way, points):
+def last_only(run: Run, goal: str, way: np.ndarray, points: np.ndarray) -> str:
     """Find out whether the robot went to the last waypoint and to none before it."""
     if len(points) < 2 or _reaches(way, points[:1]) or not _reaches(way, points[-1:]):
         return ""
@@ -65,7 +72,7 @@ def last_only(run, goal, way, points):
     return f"{words}the goal holds a list of them, to be visited one after another"
 
 
-def old_commands(run, goal, until):
+def old_commands(run: Run, goal: str, until: float) -> str:
     """Find out whether the server steers by an old place, or sends a command once and waits."""
     if said := suspect(run.recording, "old_pose"):
         return f"Your server steers by a place that the robot has left: {said}"
@@ -86,7 +93,7 @@ def old_commands(run, goal, until):
     return ""
 
 
-def other_places(way, points):
+def other_places(way: np.ndarray, points: np.ndarray) -> str:
     """Return what the waypoints were taken for, if a way leads to such places in their order; else nothing."""
     candidates = {
         "x and y of the waypoints are exchanged": points[:, ::-1],
@@ -115,7 +122,7 @@ def other_places(way, points):
     return ""
 
 
-def _reaches(way, places):
+def _reaches(way: np.ndarray, places: np.ndarray) -> bool:
     """Return whether a way (n, 2) leads to all places (m, 2), in their order, to 0.12 m, and not all by its start."""
     if np.hypot(*(places - way[0]).T).max() < 0.3:
         return np.hypot(*(way - way[0]).T).max() < 0.3 and bool(np.hypot(*(way[-1] - places[-1])) < 0.12)
@@ -127,7 +134,7 @@ def _reaches(way, places):
     return True
 
 
-def stood(run, chosen):
+def stood(run: Run, chosen: np.ndarray) -> str:
     """Return why the robot did not move from its place."""
     turned = np.abs(run.angular.values[chosen]).max(initial=0.0)
     commands = run.recording.signal("topics/cmd_vel/linear/x")
@@ -142,7 +149,7 @@ def stood(run, chosen):
     return ""
 
 
-def turned_wrong(run, chosen, points):
+def turned_wrong(run: Run, chosen: np.ndarray, points: np.ndarray) -> str:
     """Find out whether the robot turns away from the first waypoint that it misses."""
     way, yaw = run.way[chosen], run.heading[chosen]
     missed = next((p for p in points if np.hypot(*(way - p).T).min() > 0.17), points[-1])
@@ -172,7 +179,7 @@ def turned_wrong(run, chosen, points):
     return ""
 
 
-def blind(run, goal):
+def blind(run: Run, goal: str) -> str:
     """Find out whether the server sees the same place again and again although the robot moves."""
     said = run.all("feedback", goal)
     if len(said) >= 5 and len({each["distance"] for each in said}) == 1:
@@ -186,7 +193,7 @@ def blind(run, goal):
     return ""
 
 
-def stays(run, goal):
+def stays(run: Run, goal: str) -> str:
     """Find out whether a server drives on to a waypoint at which the robot was: it asks for something else."""
     points = np.array(run.waypoints(goal), dtype=float)
     said = [each for each in run.all("feedback", goal) if 0 <= each["waypoint"] < len(points)]
@@ -204,7 +211,7 @@ def stays(run, goal):
     )
 
 
-def reached_early(run, goal):
+def reached_early(run: Run, goal: str) -> str:
     """Find out whether a patrol ended, or a waypoint was left, too far away."""
     found, points = run.one("result", goal), run.waypoints(goal)
     start, end = run.period(goal)
@@ -255,14 +262,15 @@ def reached_early(run, goal):
     return ""
 
 
-def after_cancel(run, since, until):
+def after_cancel(run: Run, since: float, until: float) -> tuple[float, float]:
     """Return the largest speed [m/s] and turning rate [rad/s] between two times [s], before another goal is sent."""
     until = min([until, *(each["at"] for each in run.events if each["event"] == "sent" and each["at"] > since)])
     window = (run.times >= since) & (run.times <= until)
-    return tuple(float(np.max(np.abs(each[window]), initial=0.0)) for each in (run.linear.values, run.angular.values))
+    speed, rate = (float(np.max(np.abs(each[window]), initial=0.0)) for each in (run.linear.values, run.angular.values))
+    return speed, rate
 
 
-def ends_late(run, found, asked):
+def ends_late(run: Run, found: dict[str, Any], asked: float) -> str:
     """Return why a robot drives on that was cancelled at a time `asked` [s]; `found` is the result, or None."""
     why = "Your server accepts the cancellation and drives on"
     last = run.way[np.searchsorted(run.times, found["at"] if found else run.end).clip(0, len(run.times) - 1)]
@@ -288,7 +296,7 @@ def ends_late(run, found, asked):
     return f"{why}: {later}{meanwhile}"
 
 
-def _meanwhile(run, asked, ended, arrived):
+def _meanwhile(run: Run, asked: float, ended: float, arrived: bool) -> str:
     """Return what was commanded between a cancellation and the end of the goal [s]; empty if that tells nothing.
 
     Who has `arrived` at a waypoint then slows down there anyway.
@@ -310,7 +318,7 @@ def _meanwhile(run, asked, ended, arrived):
     return ""
 
 
-def drives_on(run, speeds):
+def drives_on(run: Run, speeds: np.ndarray) -> float:
     """Return the largest of the robot's speeds when a patrol has been over for 0.3 s, until the next goal."""
     found, following = run.one("result", "patrol"), run.one("sent", "cancelled")
     if found is None or following is None:
@@ -319,7 +327,7 @@ def drives_on(run, speeds):
     return float(np.abs(speeds[after]).max(initial=0.0))
 
 
-def bearing_of(run, goal):
+def bearing_of(run: Run, goal: str) -> str:
     """Return by which wrong angle the robot steers in a patrol after the first one; empty if none fits."""
     if run.one("accepted", goal) is None:
         return ""
@@ -329,7 +337,7 @@ def bearing_of(run, goal):
     return said or bearings.wrong_bearing(run, chosen, np.array(run.waypoints(goal), dtype=float))
 
 
-def obeys(run, since, until):
+def obeys(run: Run, since: float, until: float) -> str:
     """Return what a robot obeys that moves between two times [s] after the end of a goal."""
     later = [0]
     until = min([until, *(each["at"] for each in run.events if each["event"] == "sent" and each["at"] > since)])

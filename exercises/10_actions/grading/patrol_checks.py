@@ -4,13 +4,16 @@ The dispatcher's reports are in `given_node.py`. Waypoints are in the frame odom
 `misconceptions.py` says what a wrong patrol looks like.
 """
 
+from __future__ import annotations
+
 import json
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
-from gz_course.grader.record.reading import REPORTS
+from gz_course.grader.record.reading import REPORTS, Recording
 from gz_course.grader.score.check import Finding
 
 from . import distances, later_goals, legs, misconceptions, pauses, refusals, speeds
@@ -27,7 +30,7 @@ GOALS = {goal: words for goal, (words, _) in refusals.GOALS.items()}
 class Run:
     """The events of a run, by name and goal, and the way of the robot in the frame odom."""
 
-    def __init__(self, recording):
+    def __init__(self, recording: Recording) -> None:
         self.recording = recording
         self.events = []
         for line in recording.lines(REPORTS):
@@ -43,21 +46,21 @@ class Run:
             self.way = np.column_stack((c * east + s * north, c * north - s * east))
             self.heading = yaw.values - yaw.values[0]
 
-    def all(self, event, goal):
+    def all(self, event: str, goal: str) -> list[Any]:
         return [each for each in self.events if each["event"] == event and each["goal"] == goal]
 
-    def one(self, event, goal=""):
+    def one(self, event: str, goal: str = "") -> Any:
         return next(iter(self.all(event, goal)), None)
 
-    def period(self, goal):
+    def period(self, goal: str) -> tuple[float, float]:
         """Return when a goal was accepted and when its result came, or the end of the run."""
         result = self.one("result", goal)
         return self.one("accepted", goal)["at"], result["at"] if result else self.end
 
-    def waypoints(self, goal):
+    def waypoints(self, goal: str) -> list[Any]:
         return self.one("sent", goal)["waypoints"]
 
-    def nearest(self, goal, until, near=NEAR):
+    def nearest(self, goal: str, until: float, near: float = NEAR) -> tuple[int, float]:
         """Return how many waypoints were reached in their order, and how near the robot came to the next one."""
         start, _ = self.period(goal)
         way = self.way[(self.times >= start) & (self.times <= until)]
@@ -69,11 +72,11 @@ class Run:
         return len(self.waypoints(goal)), 0.0
 
 
-def gated(expected, why):
+def gated(expected: str, why: str) -> Finding:
     return Finding(False, expected, why, gated=True)
 
 
-def no_patrol(run, expected):
+def no_patrol(run: Run, expected: str) -> Any:
     """Return the finding if no patrol was ever accepted, else None."""
     found = run.one("interface")
     if found is None or found.get("fault"):
@@ -83,7 +86,7 @@ def no_patrol(run, expected):
     return None if run.one("accepted", "patrol") else gated(expected, "no patrol was accepted")
 
 
-def interface(recording, parameters):
+def interface(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run = Run(recording)
     found, expected = run.one("interface"), "Patrol with the fields of the task, and a server of /patrol"
     if found is None:
@@ -97,7 +100,7 @@ def interface(recording, parameters):
     return Finding(True, expected, "all fields have their types")
 
 
-def other_name(recording):
+def other_name(recording: Recording) -> str:
     """Return under which other name an action is offered; empty if none is."""
     ends = recording.facts().get("endpoints", [])
     found = [e for e in ends if e["kind"] == "publisher" and e["topic"].endswith("/_action/status")]
@@ -108,11 +111,11 @@ def other_name(recording):
     return f"Your server offers the action {name}, not /patrol{private}"
 
 
-def sentence(text):
+def sentence(text: str) -> Any:
     return text[:1].upper() + text[1:]
 
 
-def rejects(recording, parameters):
+def rejects(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "REJECT for each goal that cannot be done"
     if (gate := no_patrol(run, expected)) and not any(run.one("accepted", goal) for goal in GOALS):
         if run.one("rejected", "patrol"):
@@ -134,7 +137,7 @@ def rejects(recording, parameters):
     return Finding(True, expected, "each of the four was rejected")
 
 
-def visits(recording, parameters):
+def visits(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "every waypoint within 0.15 m, in the order of the goal; then the robot stands"
     if gate := no_patrol(run, expected):
         return gate
@@ -165,11 +168,11 @@ def visits(recording, parameters):
     )
 
 
-def speed(recording, parameters):
+def speed(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "the speed of the goal on the straight"
     if gate := no_patrol(run, expected):
         return gate
-    measured, fastest_of = "", {}
+    measured, fastest_of = "", dict[str, float]()
     for goal in ("patrol", "cancelled"):
         if not run.one("accepted", goal):
             continue
@@ -191,14 +194,14 @@ def speed(recording, parameters):
     return Finding(passed, expected, measured, None if passed else at, explanation=why)
 
 
-def feedback(recording, parameters):
+def feedback(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "at least once a second: the right waypoint, and the distance left to it"
     if gate := no_patrol(run, expected):
         return gate
     said, (start, end) = run.all("feedback", "patrol"), run.period("patrol")
     points = run.waypoints("patrol")
 
-    def wrong(measured, at, why=""):
+    def wrong(measured: str, at: float, why: str = "") -> Finding:
         return Finding(False, expected, measured, at, explanation=why)
 
     if run.nearest("patrol", end)[0] < len(points):
@@ -237,7 +240,7 @@ def feedback(recording, parameters):
     return Finding(True, expected, f"{len(said)} messages")
 
 
-def other_index(indices, total):
+def other_index(indices: list[int], total: int) -> str:
     """Return what else the numbers of the waypoints in the feedback are; empty if that is not known."""
     if len(set(indices)) == 1:
         return f"waypoint of your feedback is always {indices[0]}: it is the index of the waypoint the robot drives to"
@@ -248,7 +251,7 @@ def other_index(indices, total):
     return ""
 
 
-def still_driving(run, goal):
+def still_driving(run: Run, goal: str) -> str:
     """Return that a patrol goes on although the robot is at the last waypoint; empty if that is not so."""
     said = run.all("feedback", goal)
     if not said or said[-1]["at"] < run.end - STILL or not 0 <= said[-1]["distance"] < NEAR:
@@ -259,7 +262,7 @@ def still_driving(run, goal):
     )
 
 
-def endless(run):
+def endless(run: Run) -> str:
     """Return why a patrol that was driven to its end has no result; empty if it has one, or was not driven."""
     if run.one("result", "patrol") is not None or run.nearest("patrol", run.end)[0] < len(run.waypoints("patrol")):
         return ""
@@ -278,7 +281,7 @@ def endless(run):
     return still_driving(run, "patrol") or f"The patrol was driven to its end, but no result came: {why}"
 
 
-def result(recording, parameters):
+def result(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "SUCCEEDED, with the number of waypoints"
     if gate := no_patrol(run, expected):
         return gate
@@ -302,7 +305,7 @@ def result(recording, parameters):
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
 
-def busy(recording, parameters):
+def busy(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "a goal is rejected during a patrol, and accepted after it"
     if gate := no_patrol(run, expected):
         return gate
@@ -338,7 +341,7 @@ def busy(recording, parameters):
     return Finding(passed, expected, measured, found["at"], explanation=why)
 
 
-def cancel(recording, parameters):
+def cancel(recording: Recording, parameters: dict[str, Any]) -> Finding:
     run, expected = Run(recording), "the robot stands within 0.5 s, and the goal ends as CANCELED"
     if gate := no_patrol(run, expected):
         return gate

@@ -1,8 +1,15 @@
 """When feedback comes that comes too seldom."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 SOON = 0.6  # [s] after the patrol, or a new waypoint, began
 THERE = 0.3  # [m] from a waypoint
@@ -10,7 +17,7 @@ REGULAR = 0.25  # of a pause between messages
 FEW = 4  # messages whose pauses tell a rate
 
 
-def rare(run, said, start, end):
+def rare(run: Run, said: list[Any], start: float, end: float) -> str:
     """Return when the feedback `said` of a patrol comes, whose pauses are too long, and the place in the file."""
     indices = [each["waypoint"] for each in said]
     where = suspect(run.recording, "rare_feedback")
@@ -32,7 +39,7 @@ def rare(run, said, start, end):
     return words + where
 
 
-def left(run, message):
+def left(run: Run, message: dict[str, float | str]) -> float:
     """Return how far the robot was from its nearest waypoint when a message came [m]."""
     here = run.way[np.searchsorted(run.times, message["at"]).clip(0, len(run.times) - 1)]
     return float(np.hypot(*(np.array(run.waypoints("patrol")) - here).T).min())

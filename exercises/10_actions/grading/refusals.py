@@ -1,8 +1,14 @@
 """Which goals a server accepts that it must reject, and what it does with them."""
 
+from __future__ import annotations
+
 import json
+from typing import TYPE_CHECKING
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+
+if TYPE_CHECKING:
+    from .patrol_checks import Run
 
 GOALS = {
     "empty": ("a goal without waypoints", "accepts_empty"),
@@ -13,7 +19,7 @@ GOALS = {
 MAX_SPEED = 0.5  # [m/s] if nobody sets the parameter
 
 
-def accepted(run):
+def accepted(run: Run) -> str:
     """Return a sentence on the goals that a server accepts and must not, and where its file lets them through."""
     names = [goal for goal in GOALS if run.one("accepted", goal)]
     if not names:
@@ -36,7 +42,7 @@ def accepted(run):
     return what
 
 
-def limit(run):
+def limit(run: Run) -> float:
     """Return max_speed [m/s] in the trial of a run."""
     trial = json.loads(run.recording.properties("run").get("trial_parameters", "{}"))
     return float(trial.get("parameters", {}).get("server", {}).get("max_speed", MAX_SPEED))

@@ -1,13 +1,20 @@
 """What the speeds of a patrol are instead of that of its goal."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from . import bearings
 
+if TYPE_CHECKING:
+    from .patrol_checks import Run
+
 SAME = 0.1  # of a speed, to be called the same
 
 
-def other_speed(run, fastest):
+def other_speed(run: Run, fastest: dict[str, float]) -> str:
     """Return what the speeds are instead of those of the goals: `fastest` [m/s] by goal."""
     if words := bearings.backwards(run):
         return words
@@ -42,7 +49,7 @@ def other_speed(run, fastest):
     return f"Your server drives at {fastest[goal]:.2f} m/s where the goal says {asked[goal]:.2f}: linear.x has no limit"
 
 
-def of_the_one_before(run, asked):
+def of_the_one_before(run: Run, asked: dict[str, float]) -> str:
     """Find out whether the second patrol drives as fast as the first one in its first commands only."""
     if len(asked) < 2:
         return ""
@@ -62,7 +69,7 @@ def of_the_one_before(run, asked):
     return ""
 
 
-def commanded(run, goal):
+def commanded(run: Run, goal: str) -> float:
     """Return the largest linear.x that was sent during a patrol [m/s]."""
     start, end = run.period(goal)
     signal = run.recording.signal("topics/cmd_vel/linear/x")
@@ -70,7 +77,7 @@ def commanded(run, goal):
     return float(signal.values[(times >= start) & (times <= end)].max(initial=0.0))
 
 
-def proportional(run, asked):
+def proportional(run: Run, asked: dict[str, float]) -> str:
     """Find out whether linear.x goes with the distance that is left over the whole way."""
     signal = run.recording.signal("topics/cmd_vel/linear/x")
     for goal in asked:

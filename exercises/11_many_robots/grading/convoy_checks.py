@@ -1,13 +1,17 @@
 """Checks that only this exercise needs: a row of robots, their names in ROS, and the gaps between them."""
 
+from __future__ import annotations
+
 import itertools
 import math
 import re
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.errors.launch_errors import launch_meaning
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import argument, complaint, deaths, declared, launch_facts, logged_error, ran
@@ -27,22 +31,22 @@ TYPES = {"ROS_TO_GZ": "geometry_msgs/msg/Twist", "GZ_TO_ROS": "nav_msgs/msg/Odom
 DRIVES, HEARS = "cmd_vel", "odom"
 
 
-def _names(recording):
+def _names(recording: Recording) -> tuple[list[str], str]:
     count, called = argument(recording, "robots", "2")
     return [f"robot{number}" for number in range(1, int(count) + 1)], called
 
 
-def _there(recording):
+def _there(recording: Recording) -> list[str]:
     return sorted({name.split("/")[1] for name in recording.signals() if name.startswith("truth/")})
 
 
-def _create_said(recording):
+def _create_said(recording: Recording) -> str:
     """Return the first error of a create; empty if all went well."""
     died = next((death.said for death in deaths(recording) if death.process == "create"), "")
     return logged_error(recording, "create") or complaint(recording, "create") or died
 
 
-def in_a_row(recording, parameters):
+def in_a_row(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if exactly the robots that were asked for are there, each in its place."""
     names, called = _names(recording)
     expected = f"{called}: {', '.join(names)} in a row, {GAP} m apart"
@@ -109,7 +113,7 @@ def in_a_row(recording, parameters):
     return Finding(True, expected, f"{called}, so it was")
 
 
-def one_clock(recording, parameters):
+def one_clock(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if exactly one bridge carries the clock."""
     expected = "one bridge for /clock, from Gazebo to ROS"
     found = [bridge for bridge in bridges(recording) if bridge.ros_topic == "/clock"]
@@ -128,12 +132,12 @@ def one_clock(recording, parameters):
     return Finding(found[0].to_ros > 5, expected, f"{found[0].to_ros} messages of the clock came")
 
 
-def name_in(topic):
+def name_in(topic: str) -> str:
     """Return the first part of a topic's name: the robot of /robot1/odom."""
     return topic.split("/")[1]
 
 
-def own_topics(recording, parameters):
+def own_topics(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if every robot's commands and odometry are bridged below its name, each way once."""
     names, called = _names(recording)
     made = bridges(recording)
@@ -204,7 +208,7 @@ def own_topics(recording, parameters):
     return Finding(True, expected, f"{len(wanted)} topics of {len(names)} robots")
 
 
-def listens_to_the_one_in_front(recording, parameters):
+def listens_to_the_one_in_front(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if each follower has the subscriptions and the publisher that its place in the row asks for."""
     names, called = _names(recording)
     expected = f"{called}: /robot2/follower hears /robot1/odom and /robot2/odom, steers /robot2/cmd_vel, and so on"
@@ -292,7 +296,7 @@ def listens_to_the_one_in_front(recording, parameters):
     return Finding(True, expected, f"{len(names) - 1} followers, so it was")
 
 
-def _below_its_namespace(topic, name, wanted):
+def _below_its_namespace(topic: str, name: str, wanted: list[str]) -> str:
     """Return why a subscription is below the follower's own namespace."""
     relative = topic.removeprefix(f"/{name}/")
     if relative == f"front/{HEARS}":
@@ -303,7 +307,7 @@ def _below_its_namespace(topic, name, wanted):
     return f"{relative} does not begin with /, so it is put into the namespace /{name}{write}"
 
 
-def _private(topic, node):
+def _private(topic: str, node: str) -> str:
     """Explain the name of a topic that has the node's own name in it."""
     last, space = topic.removeprefix(f"{node}/"), node.rpartition("/")[0]
     return (
@@ -312,15 +316,15 @@ def _private(topic, node):
     )
 
 
-def _stopped(recording, sent):
+def _stopped(recording: Recording, sent: list[follower_fits.Heard]) -> str:
     return suspect(recording, "stopped") if sent and follower_lags.stopped(sent) else ""
 
 
-def _late(recording, name, front):
+def _late(recording: Recording, name: str, front: str) -> str:
     return follower_lags.late(recording, name, front, follower_fits.heard, follower_fits.line)
 
 
-def _reason(sent):
+def _reason(sent: list[follower_fits.Heard]) -> str:
     """Return the misconception that fits the commands of a follower; empty if none does."""
     if said := follower_fits.seen_elsewhere(sent):
         return said
@@ -330,7 +334,7 @@ def _reason(sent):
     return speed or turns
 
 
-def keeps_together(recording, parameters):
+def keeps_together(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the first robot drives, and each other one is behind the one in front all the time."""
     names, called = _names(recording)
     expected = f"{NEAREST} to {FARTHEST} m from robot to robot all the time, {GAP} m in the end"
@@ -338,8 +342,8 @@ def keeps_together(recording, parameters):
         return Finding(False, expected, f"there was no {missing[0]}")
     paths = {}
     for name in names:
-        x, y = (recording.signal(f"truth/{name}/{axis}") for axis in ("x", "y"))
-        paths[name] = (x.times / 1e9, x.values, y.values)
+        along, across = (recording.signal(f"truth/{name}/{axis}") for axis in ("x", "y"))
+        paths[name] = (along.times / 1e9, along.values, across.values)
     driven = {name: recording.signal(f"truth/{name}/distance").values[-1] for name in names}
     if driven["robot1"] < 1.0:
         return Finding(False, expected, f"robot1 drove {driven['robot1']:.1f} m only: the commands did not reach it")

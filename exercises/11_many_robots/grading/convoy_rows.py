@@ -1,13 +1,17 @@
 """How the robots of a convoy stand if not in their row, and what in the launch file ends their number."""
 
+from __future__ import annotations
+
 import itertools
 import math
+
+from gz_course.grader.record.reading import Recording
 
 GAP = 1.2  # [m]
 ROW = 0.15  # [m] that a robot may start beside its place
 
 
-def ends_there(recording, count, called):
+def ends_there(recording: Recording, count: int, called: str) -> str:
     """Return the loop or the list of the launch file that makes so many robots at most; empty if there is none."""
     places = [each for each in recording.facts().get("fixed_counts", []) if each["count"] == count]
     return "".join(
@@ -18,7 +22,7 @@ def ends_there(recording, count, called):
     )
 
 
-def misplaced(recording, names):
+def misplaced(recording: Recording, names: list[str]) -> str:
     """Return how the robots stand instead of in their row; empty if in no way that is known."""
     x, y = ([float(recording.signal(f"truth/{name}/{axis}").values[0]) for name in names] for axis in ("x", "y"))
     if len(names) < 2:
@@ -41,7 +45,7 @@ def misplaced(recording, names):
     return ""
 
 
-def added_up(reason, before):
+def added_up(reason: str, before: int) -> str:
     """Return what a follower with several robots before it has added up, if it keeps so many gaps; else nothing."""
     if before < 2 or f"is zero at a distance of {GAP * before:.2f} m" not in reason:
         return ""

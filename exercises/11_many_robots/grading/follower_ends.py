@@ -1,10 +1,14 @@
 """Why a follower gets or sends nothing although its topics have the right names: types and quality of service."""
 
+from __future__ import annotations
+
 import re
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.launched import own_end, without_sim_time
 
 SELDOM = 0.4  # [s] between the commands of a follower
@@ -18,7 +22,7 @@ NO_PROGRAM = re.compile(r"there is no program '(.*)' to be started")
 TWIST, ODOMETRY = "geometry_msgs/msg/Twist", "nav_msgs/msg/Odometry"
 
 
-def unheard(ends, name, front):
+def unheard(ends: list[Any], name: str, front: str) -> str:
     """Return what keeps the messages of a follower's topics from arriving; empty if nothing is seen."""
     mine = [end for end in ends if end["node"] == f"/{name}/follower"]
     for end in mine:
@@ -46,13 +50,13 @@ def unheard(ends, name, front):
     return ""
 
 
-def ended_by_itself(recording):
+def ended_by_itself(recording: Recording) -> str:
     """Return which line of a program of the submission has ended it without an error; empty if none is known."""
     ended = recording.facts().get("launch", {}).get("ended_early", [])
     return next(filter(None, (own_end(recording, each["program"]) for each in ended if not each["code"])), "")
 
 
-def few(recording, name):
+def few(recording: Recording, name: str) -> str:
     """Return that a follower stopped sending commands after the first; empty if it did not."""
     times = recording.signal(f"topics/{name}/cmd_vel/linear/x").times / 1e9
     seen = recording.signal(f"truth/{name}/distance").times / 1e9
@@ -68,7 +72,7 @@ def few(recording, name):
     return f"its node publishes {len(times)} command{'s' if len(times) > 1 else ''} only, and {last}"
 
 
-def too_seldom(recording, name):
+def too_seldom(recording: Recording, name: str) -> str:
     """Return that a follower sends its commands too seldom; empty if it does not."""
     times = recording.signal(f"topics/{name}/cmd_vel/linear/x").times / 1e9
     if len(times) < 3 or (apart := float(np.median(np.diff(times)))) < SELDOM:
@@ -79,7 +83,7 @@ def too_seldom(recording, name):
     )
 
 
-def one_name_for_several(started, followers):
+def one_name_for_several(started: int, followers: list[str]) -> str:
     """Return that several programs have become one node, by its name; empty if as many have started as there are."""
     if not followers or started <= len(followers):
         return ""
@@ -89,7 +93,7 @@ def one_name_for_several(started, followers):
     )
 
 
-def missing(name, names, followers):
+def missing(name: str, names: list[str], followers: list[str]) -> str:
     """Return which robots have no follower, if it is only the last one, or all but the last one; else nothing."""
     if name == names[-1] and followers == [f"/{each}/follower" for each in names[1:-1]]:
         return f"only the last robot, {name}, has no follower, as with a range(2, n), which ends before n"
@@ -101,13 +105,13 @@ def missing(name, names, followers):
     return ""
 
 
-def started(recording):
+def started(recording: Recording) -> int:
     """Return how often the launch has started the program that it starts most, besides simulator, bridges, create."""
     names = [match[1] for line in recording.lines("log/student") if (match := BY_OTHERS.match(line.text))]
     return max((names.count(name) for name in names), default=0)
 
 
-def no_program(recording):
+def no_program(recording: Recording) -> str:
     """Return the program of an action that the launch did not find; empty if it found all."""
     lines = (NO_PROGRAM.search(line.text) for line in recording.lines("log/student"))
     return next((match[1] for match in lines if match), "")

@@ -4,9 +4,15 @@ Each candidate is a quantity that such a node computes from the two odometries i
 a multiple of it, up to its limits: a straight line through the commands between the limits tells whether it fits.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+
+from gz_course.grader.record.reading import Recording
 
 from . import follower_lags, follower_origins
 from .follower_origins import GAP
@@ -44,20 +50,20 @@ class Heard:
     front_angular: np.ndarray
 
     @property
-    def ahead(self):
+    def ahead(self) -> np.ndarray:
         """Where the robot in front is along x [m]; its odometry begins 1.2 m ahead."""
         return self.front_x + GAP - self.x
 
     @property
-    def aside(self):
+    def aside(self) -> np.ndarray:
         return self.front_y - self.y
 
     @property
-    def distance(self):
+    def distance(self) -> np.ndarray:
         return np.hypot(self.ahead, self.aside)
 
 
-def heard(recording, name, front):
+def heard(recording: Recording, name: str, front: str) -> list[Heard]:
     """Return what a follower sent and what it had heard by then, for each delay; empty if it sent too little."""
     base = f"topics/{name}/cmd_vel"
     times = np.asarray(recording.signal(f"{base}/linear/x").times)
@@ -91,11 +97,11 @@ def heard(recording, name, front):
     return found
 
 
-def wrapped(angle):
+def wrapped(angle: np.ndarray) -> np.ndarray:
     return np.arctan2(np.sin(angle), np.cos(angle))
 
 
-def line(quantity, commands):
+def line(quantity: np.ndarray, commands: np.ndarray) -> tuple[float, float, float] | None:
     """Return slope, offset and fit (0..1) of the commands between the limits over a quantity; None without enough."""
     low, high = commands.min(), commands.max()
     between = (commands > low + EDGE) & (commands < high - EDGE)
@@ -107,12 +113,12 @@ def line(quantity, commands):
     return float(slope), float(offset), float(1 - rest.var() / y.var())
 
 
-def copied(commands, speeds):
+def copied(commands: np.ndarray, speeds: np.ndarray) -> bool:
     """Return whether commands that change are the speeds of the robot in front."""
     return np.ptp(commands) > 5 * EDGE and np.mean(np.abs(commands - speeds) < EDGE) > SHARE
 
 
-def turning(every):
+def turning(every: list[Heard]) -> str:
     """Return which wrong angle the follower steers by; empty if none fits clearly better than the right one."""
     if any(copied(h.angular, h.front_angular) for h in every):
         return "it sends the turning rate of the robot in front"
@@ -131,7 +137,7 @@ def turning(every):
     )
 
 
-def _angles(h):
+def _angles(h: Heard) -> Iterator[tuple[np.ndarray, str]]:
     bearing = np.arctan2(h.aside, h.ahead)
     begins = np.arctan2(h.front_y - h.y, h.front_x - h.x)
     half = h.heading / 2
@@ -177,7 +183,7 @@ def _angles(h):
     )
 
 
-def speed(every):
+def speed(every: list[Heard]) -> str:
     """Return which wrong quantity the speed of the follower is made of; empty if none fits."""
     v = every[0].linear
     if np.ptp(v) < EDGE:
@@ -191,18 +197,18 @@ def speed(every):
     if words := _summed(every):
         return words
     right = _closest([(h.distance, "") for h in every], v)
-    fits = right is not None and right[2] > FITS
-    if fits and right[0] > 0 and abs(-right[1] / right[0] - GAP) < WIDE:
-        return _pauses(every) or _of_the_gap(v, *right[:2])
+    fits = right if right is not None and right[2] > FITS else None
+    if fits is not None and fits[0] > 0 and abs(-fits[1] / fits[0] - GAP) < WIDE:
+        return _pauses(every) or _of_the_gap(v, *fits[:2])
     other = follower_origins.other_places(every, line, right[2] if right is not None else 0.0)
     other = other or follower_origins.begun_elsewhere(every, line)
     other = other or follower_origins.to_the_place(every, line, right[2] if right is not None else 0.0)
     if not other and not follower_origins.to_behind(every, line):
         other = _best([each for h in every for each in _lengths(h)], v, right)
-    return other or _pauses(every) or (_of_the_gap(v, *right[:2]) if fits else _limits(v))
+    return other or _pauses(every) or (_of_the_gap(v, *fits[:2]) if fits is not None else _limits(v))
 
 
-def seen_elsewhere(every):
+def seen_elsewhere(every: list[Heard]) -> str:
     """Return where a follower that never drives ahead takes the robot in front to be; empty if that is not known.
 
     With a speed of zero only the sides to which it turns can tell.
@@ -234,7 +240,7 @@ def seen_elsewhere(every):
     return ""
 
 
-def _sides(angle, commands):
+def _sides(angle: np.ndarray, commands: np.ndarray) -> float:
     """Return the share of the commands that turn to the side of an angle, where that is not nearly ahead."""
     angle = wrapped(angle)
     clear = (np.abs(angle) > ASTRAY) & (np.abs(angle) < np.pi - ASTRAY)
@@ -243,7 +249,7 @@ def _sides(angle, commands):
     return float(np.mean(np.sign(angle[clear]) == np.sign(commands[clear])))
 
 
-def _lengths(h):
+def _lengths(h: Heard) -> Iterator[tuple[np.ndarray, str]]:
     for length in (np.hypot(h.front_x, h.front_y), np.hypot(h.front_x + GAP, h.front_y)):
         yield length, "its speed depends on the place of the robot in front alone: its own place is not subtracted"
     yield (
@@ -267,7 +273,7 @@ def _lengths(h):
     yield np.abs(h.ahead) + np.abs(h.aside), "it adds the distances along x and y: the distance is hypot(x, y)"
 
 
-def _pauses(every):
+def _pauses(every: list[Heard]) -> str:
     """Return that many commands are zero although the follower is behind; empty if they are few, or most."""
     distance = np.min([h.distance for h in every], axis=0)
     zero = np.abs(every[0].linear) < 1e-6
@@ -285,7 +291,7 @@ def _pauses(every):
     )
 
 
-def _summed(every):
+def _summed(every: list[Heard]) -> str:
     """Return that a speed is a sum over all distances: its changes, not the speed, go with the distance."""
     changes, v = np.diff(every[0].linear), every[0].linear
     free = (v > v.min() + EDGE) & (v < v.max() - EDGE)
@@ -305,7 +311,7 @@ def _summed(every):
     return ""
 
 
-def _constant(h):
+def _constant(h: Heard) -> str:
     v = float(h.linear[0])
     if abs(v) < EDGE:
         if min(h.distance.max(), np.hypot(h.front_x - h.x, h.front_y - h.y).max()) < GAP + WIDE:
@@ -318,7 +324,7 @@ def _constant(h):
     return f"it sends linear.x {v:.2f} m/s all the time, whatever the distance is"
 
 
-def _of_the_gap(v, slope, offset):
+def _of_the_gap(v: np.ndarray, slope: float, offset: float) -> str:
     """Return what is wrong with a speed that is a line over the distance: its sign, the gap it keeps, or its slope."""
     if slope < 0:
         return "it is slower the farther it is behind: the sign of its speed is wrong; it is distance - gap"
@@ -340,7 +346,7 @@ def _of_the_gap(v, slope, offset):
     return _limits(v)
 
 
-def _limits(v):
+def _limits(v: np.ndarray) -> str:
     fastest, slowest = float(v.max()), float(v.min())
     if fastest <= 1e-6 and slowest < -EDGE:
         return "it drives backwards: all its speeds are below zero"
@@ -351,12 +357,14 @@ def _limits(v):
     return ""
 
 
-def _closest(candidates, commands):
+def _closest(candidates: list[Any], commands: np.ndarray) -> tuple[float, float, float] | None:
     """Return the line that fits best; None if nothing can be fitted."""
     return max(filter(None, (line(quantity, commands) for quantity, _ in candidates)), default=None, key=lambda f: f[2])
 
 
-def _best(candidates, commands, right, most=np.inf):
+def _best(
+    candidates: list[Any], commands: np.ndarray, right: tuple[float, float, float] | None, most: float = np.inf
+) -> str:
     """Return the words of the candidate that fits best, if it fits, and better than the right quantity.
 
     `most` is how far from zero a quantity may be for which nothing is commanded.

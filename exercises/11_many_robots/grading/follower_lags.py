@@ -1,6 +1,16 @@
 """What a follower sends that knows the right places, but late, in other fields, or with the limits of the other."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+from gz_course.grader.record.reading import Recording
+
+if TYPE_CHECKING:
+    from .follower_fits import Heard
 
 GAP = 1.2  # [m]
 FITS = 0.98  # of the variance of the commands that a line must explain
@@ -13,7 +23,7 @@ BEHIND = 0.15  # [m] farther than the gap
 FEWEST = 8  # commands
 
 
-def late(recording, name, front, heard, line):
+def late(recording: Recording, name: str, front: str, heard: Callable[..., Any], line: Callable[..., Any]) -> str:
     """Return that a follower steers by where the robot in front was some time ago; empty if it does not."""
     base = f"topics/{front}/odom/pose/pose/position"
     x, y = recording.signal(f"{base}/x"), recording.signal(f"{base}/y")
@@ -39,13 +49,13 @@ def late(recording, name, front, heard, line):
     return words if best > max(FITS, usual + BETTER * (1 - usual)) and abs(zero - GAP) < NEAR else ""
 
 
-def _fit(h, front_x, front_y, line):
+def _fit(h: Heard, front_x: np.ndarray, front_y: np.ndarray, line: Callable[..., Any]) -> tuple[float, float]:
     """Return how well a line over the distance to a place explains the speeds, and where it is zero."""
     found = line(np.hypot(front_x + GAP - h.x, front_y - h.y), h.linear)
     return (found[2], -found[1] / found[0]) if found is not None and found[0] > 0 else (0.0, 0.0)
 
 
-def _averaged(values, weight):
+def _averaged(values: np.ndarray, weight: float) -> np.ndarray:
     found, last = [], values[0]
     for value in values:
         last = weight * value + (1 - weight) * last
@@ -53,7 +63,7 @@ def _averaged(values, weight):
     return np.array(found)
 
 
-def exchanged(every, line):
+def exchanged(every: list[Heard], line: Callable[..., Any]) -> str:
     """Return that the speed is made of the angle and the turning of the distance; empty if it is not so."""
     for h in every:
         angle = np.arctan2(h.aside, h.ahead) - h.heading
@@ -75,7 +85,7 @@ def exchanged(every, line):
     return ""
 
 
-def held_by_the_front(every):
+def held_by_the_front(every: list[Heard]) -> str:
     """Return that a follower is never faster than the robot in front, so that it never catches up."""
     for h in every:
         far = h.distance > GAP + BEHIND
@@ -96,7 +106,7 @@ def held_by_the_front(every):
     return ""
 
 
-def stopped(every):
+def stopped(every: list[Heard]) -> bool:
     """Return whether a follower that drove, or was near enough, sends zeros only in the end although it is behind."""
     h = every[0]
     zero = np.abs(h.linear) < WITHIN

@@ -1,6 +1,16 @@
 """Where a follower takes the robot in front to be, if not 1.2 m ahead of where its odometry begins."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+from gz_course.grader.record.reading import Recording
+
+if TYPE_CHECKING:
+    from .follower_fits import Heard
 
 GAP = 1.2  # [m]
 FITS = 0.995  # of the variance of the commands that a line must explain
@@ -10,7 +20,7 @@ LEAST = 0.15  # [m/s] from which on a robot starts at once, and not little by li
 NEAR = 0.25  # [m] to the right place, or to none: other words name that
 
 
-def begun_elsewhere(every, line):
+def begun_elsewhere(every: list[Heard], line: Callable[..., Any]) -> str:
     """Return where a follower takes the robot in front to have begun, if that fits its speeds much better than 1.2 m.
 
     On a straight way, a place and a gap that is kept cannot be told apart: only what goes to the side tells.
@@ -39,14 +49,14 @@ def begun_elsewhere(every, line):
     )
 
 
-def _ahead_of(h, begins=GAP):
+def _ahead_of(h: Heard, begins: float = GAP) -> np.ndarray:
     """Return how far ahead the place 1.2 m behind the robot in front is, along the follower's own direction."""
     x = h.front_x + begins - GAP * np.cos(h.front_heading) - h.x
     y = h.front_y - GAP * np.sin(h.front_heading) - h.y
     return np.cos(h.heading) * x + np.sin(h.heading) * y
 
 
-def to_the_place(every, line, usual=0.0):
+def to_the_place(every: list[Heard], line: Callable[..., Any], usual: float = 0.0) -> str:
     """Return what is wrong with a speed that is made of the distance to the place behind the robot in front.
 
     `usual` is how well the distance to that robot explains the speeds.
@@ -72,7 +82,7 @@ def to_the_place(every, line, usual=0.0):
     return ""
 
 
-def other_places(every, line, usual=0.0):
+def other_places(every: list[Heard], line: Callable[..., Any], usual: float = 0.0) -> str:
     """Return to which other place than that behind the robot in front a follower drives; empty if to none known.
 
     `usual` is how well the distance to that robot explains the speeds.
@@ -92,7 +102,7 @@ def other_places(every, line, usual=0.0):
     return words if best > max(FITS, least + BETTER * (1 - least)) else ""
 
 
-def to_behind(every, line):
+def to_behind(every: list[Heard], line: Callable[..., Any]) -> bool:
     """Return whether the speeds are made of how far ahead the place behind the robot in front is, as they may be."""
     for h in every:
         fit = line(_ahead_of(h), every[0].linear)
@@ -101,7 +111,7 @@ def to_behind(every, line):
     return False
 
 
-def _places(h):
+def _places(h: Heard) -> Iterator[tuple[str, tuple[np.ndarray, np.ndarray]]]:
     """Yield places beside the robot in front, from its middle; without words that behind it."""
     c, s = GAP * np.cos(h.front_heading), GAP * np.sin(h.front_heading)
     yield "", (-c, -s)
@@ -117,7 +127,7 @@ def _places(h):
     )
 
 
-def behind(every):
+def behind(every: list[Heard]) -> str:
     """Return what a follower that falls behind does meanwhile: it is slow, or it does not face the other robot."""
     h = every[0]
     far = h.distance > GAP + 0.45
@@ -131,7 +141,7 @@ def behind(every):
     return f"its speed is about {fast:.2f} m/s meanwhile" if fast < 0.45 else ""
 
 
-def sideways(recording, name):
+def sideways(recording: Recording, name: str) -> str:
     """Return that a follower sends its speed in a field that a robot on two wheels does not obey; else nothing."""
     base = f"topics/{name}/cmd_vel"
     for field in ("linear/y", "linear/z", "angular/x", "angular/y"):
@@ -144,7 +154,7 @@ def sideways(recording, name):
     return ""
 
 
-def drives_from(every):
+def drives_from(every: list[Heard]) -> str:
     """Return from which distance on a follower drives, if it stands still although it is farther than the gap.
 
     If its speeds are zero where it does not face the robot in front instead, return from which angle on.
@@ -168,6 +178,6 @@ def drives_from(every):
     return ""
 
 
-def _parted(low, high):
+def _parted(low: np.ndarray, high: np.ndarray) -> bool:
     """Return whether nearly all of some numbers are below nearly all of others."""
     return np.quantile(low, 0.9) < np.quantile(high, 0.1)

@@ -1,32 +1,34 @@
 """Checks of the repaired system: each looks at one fault, in the graph, in the bridge or in the truth."""
 
+from __future__ import annotations
+
 import json
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges
 from gz_course.grader.score.launched import complaint, deaths, declared, launch_facts, logged_error, simulator_fault
 
 from . import misconceptions, names
 
-SCAN, COMMANDS = "/scan", "/cmd_vel"
-LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+SCAN, COMMANDS, LASER_SCAN, RANGE = "/scan", "/cmd_vel", "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
 WORLDS = ("bay.sdf", "depot.sdf")  # in the folder `worlds` beside the launch file
-FRAMES = ("base_link", "lidar_link")  # parent and child
-MOUNT = (-0.2, 0.0, 0.19)  # [m] lidar_link in base_link, as in cart.sdf
+FRAMES, MOUNT = ("base_link", "lidar_link"), (-0.2, 0.0, 0.19)  # parent and child; the child in the parent [m]
 WARNING = re.compile(r"^\[[^\]]+\] \[WARN\] (?:\[[\d.]+\] )?\[(\w+)\]: (.*)")  # of a node, in the log of the launch
 
 
-def _ends(recording, kind, type=None, topic=None):
+def _ends(recording: Recording, kind: str, type: str | None = None, topic: str | None = None) -> list[Any]:
     found = recording.facts().get("endpoints", [])
     return [e for e in found if e["kind"] == kind and type in (None, e["type"]) and topic in (None, e["topic"])]
 
 
-def time_runs(recording, parameters):
+def time_runs(recording: Recording, parameters: dict[str, Any]) -> Finding:
     expected = "a simulator that runs from its start, with -r"
     ran = [each for each in launch_facts(recording).get("simulators", []) if each["ran"]]
     if not ran and recording.ended_s > 0:
@@ -47,7 +49,7 @@ def time_runs(recording, parameters):
     return Finding(recording.ended_s > 0, expected, f"{recording.ended_s:.1f} s were simulated")
 
 
-def commands_go_to_gazebo(recording, parameters):
+def commands_go_to_gazebo(recording: Recording, parameters: dict[str, Any]) -> Finding:
     expected = "/cmd_vel -> /model/robot/cmd_vel, ROS_TO_GZ"
     found = [each for each in bridges(recording) if each.gz_topic == "/model/robot/cmd_vel"]
     if not found:
@@ -91,7 +93,7 @@ def commands_go_to_gazebo(recording, parameters):
     return Finding(True, expected, "so it is")
 
 
-def scans_are_heard(recording, parameters):
+def scans_are_heard(recording: Recording, parameters: dict[str, Any]) -> Finding:
     expected = "a subscription to /scan that asks for no more than the bridge offers"
     offers = [each for each in bridges(recording) if each.ros_topic == SCAN and each.publisher_qos is not None]
     if not offers or offers[0].gz_topic != "/lidar/scan" or offers[0].direction != "GZ_TO_ROS":
@@ -127,7 +129,7 @@ def scans_are_heard(recording, parameters):
     return Finding(True, expected, "so it is")
 
 
-def same_topic(recording, parameters):
+def same_topic(recording: Recording, parameters: dict[str, Any]) -> Finding:
     expected = "the ranger publishes the distance where the driver takes it"
     sends = {each["topic"] for each in _ends(recording, "publisher", RANGE)}
     takes = {each["topic"] for each in _ends(recording, "subscription", RANGE)}
@@ -147,12 +149,12 @@ def same_topic(recording, parameters):
     return Finding(True, expected, f"both use {min(sends & takes)}")
 
 
-def _died(recording, name):
+def _died(recording: Recording, name: str) -> Any:
     said = " ".join(line.text for line in recording.lines("log/student"))
     return f"{name}_node.py" in said and bool(list(deaths(recording)))
 
 
-def lidar_frame(recording, parameters):
+def lidar_frame(recording: Recording, parameters: dict[str, Any]) -> Finding:
     x, y, z = MOUNT
     expected = f"lidar_link at x = {x}, y = {y}, z = {z} m in base_link"
     name = "topics/tf_static/{}/{}/translation/x"
@@ -186,7 +188,7 @@ def lidar_frame(recording, parameters):
     return Finding(False, expected, measured, gated=dead)
 
 
-def all_alive(recording, parameters):
+def all_alive(recording: Recording, parameters: dict[str, Any]) -> Finding:
     # How a process ends after Ctrl-C is not asked: rclpy can lose a SIGINT, and the launch then sends SIGTERM.
     expected = "no process of the launch ends before Ctrl-C"
     facts = launch_facts(recording)
@@ -219,7 +221,7 @@ def all_alive(recording, parameters):
     return Finding(True, expected, "so it is")
 
 
-def simulated_time(recording, parameters):
+def simulated_time(recording: Recording, parameters: dict[str, Any]) -> Finding:
     expected = "the ranger and the driver follow /clock"
     follows = {each["node"] for each in _ends(recording, "subscription", topic="/clock")}
     ranger = {each["node"] for each in _ends(recording, "publisher", RANGE)}
@@ -235,7 +237,7 @@ def simulated_time(recording, parameters):
     return Finding(True, expected, "so it is")
 
 
-def _why_on_wall_time(recording, program):
+def _why_on_wall_time(recording: Recording, program: str) -> str:
     """Return which action starts a program without use_sim_time, and that it no longer asks how old a message is."""
     what, signal = ("scan", "wall/range") if program == "ranger_node.py" else ("distance", "cmd_vel/linear/x")
     places = recording.facts().get("programs", [])
@@ -258,7 +260,7 @@ def _why_on_wall_time(recording, program):
     return said if place is not None else ""
 
 
-def parks(recording, parameters):
+def parks(recording: Recording, parameters: dict[str, Any]) -> Finding:
     trial = json.loads(recording.properties("run").get("trial_parameters", "{}"))
     wanted, tolerance = float(trial.get("parameters", {}).get("stop_at", 1.0)), parameters["tolerance"]
     expected = f"it stands {wanted:g} m from the wall (+- {tolerance:g} m) in the last second, and touches nothing"
@@ -289,7 +291,7 @@ def parks(recording, parameters):
     return Finding(right, expected, f"it stood {worst:.2f} m from the wall", explanation="" if right else why)
 
 
-def _why_deaf(recording):
+def _why_deaf(recording: Recording) -> str:
     """Return which two ends of /wall or /cmd_vel do not connect: one asks for more than the other offers."""
     takes = [(e["node"], e["topic"], e) for e in _ends(recording, "subscription", RANGE)]
     for each in bridges(recording):
@@ -309,7 +311,7 @@ def _why_deaf(recording):
     return ""
 
 
-def _why_stale(recording):
+def _why_stale(recording: Recording) -> str:
     """Return that the distances have no time; empty if they have one, or none came."""
     stamps = recording.signal("topics/wall/header/stamp").values
     if not len(stamps) or np.any(stamps):
@@ -320,7 +322,7 @@ def _why_stale(recording):
     )
 
 
-def _why_still(recording):
+def _why_still(recording: Recording) -> str:
     """Return what the logs and the messages say about a cart that does not drive."""
     heard, commands = (len(recording.signal(f"topics/{name}")) for name in ("wall/range", "cmd_vel/count"))
     said = [match for line in recording.lines("log/student") if (match := WARNING.match(line.text))]
@@ -335,15 +337,15 @@ def _why_still(recording):
             why = f"{places}; {why.partition('; before')[0]}"
         return why
     if not commands:
-        said = f"the driver got {heard} distances and published no command"
+        silent = f"the driver got {heard} distances and published no command"
         loops = [each for each in recording.facts().get("slips", []) if "in the callback" in each["said"]]
         if any(each.get("file") == "driver_node.py" for each in loops):
-            said += ": one of its callbacks hangs, and waits for what only another callback of the node could bring"
-        return said
+            silent += ": one of its callbacks hangs, and waits for what only another callback of the node could bring"
+        return silent
     return ""
 
 
-def _why_there(recording, times, away, wanted):
+def _why_there(recording: Recording, times: np.ndarray, away: np.ndarray, wanted: float) -> str:
     """Return which misconception the distances on /wall, or the commands on /cmd_vel, fit."""
     measured, command = recording.signal("topics/wall/range"), recording.signal("topics/cmd_vel/linear/x")
     if not len(measured):
@@ -383,14 +385,14 @@ def _why_there(recording, times, away, wanted):
     return f"{said} (/cmd_vel, driver_node.py)" if said else ""
 
 
-def _another_axis(recording):
+def _another_axis(recording: Recording) -> str:
     """Return which part of the commands is not zero, if linear.x always is; else nothing."""
     parts = ("linear.y", "linear.z", "angular.z", "angular.x", "angular.y")
     values = {part: recording.signal(f"topics/cmd_vel/{part.replace('.', '/')}").values for part in parts}
     return next((part for part, each in values.items() if np.any(np.abs(each) > 0.01)), "")
 
 
-def _suspects(recording, file, *about):
+def _suspects(recording: Recording, file: str, *about: str) -> str:
     """Return the first place in a file that is suspected of one of these things, with its words; empty if none is."""
     for each in recording.facts().get("suspects", []):
         if each.get("file") == file and each["about"] in about:

@@ -3,7 +3,11 @@
 Distances are in metres, speeds in metres per second.
 """
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +23,7 @@ FRONT = 0.2  # [m] from base_link
 DEFAULT = 1.0  # [m] stop_at if it is not given
 
 
-def of_a_mount(seen, mount, sign):
+def of_a_mount(seen: Sequence[float], mount: tuple[float, float, float], sign: int) -> str:
     """Explain a wrong place of the lidar in base_link; `sign` is -1 if base_link is the child of the transform."""
     if math.dist([-each for each in seen], mount) < 0.005:
         if sign < 0:
@@ -49,7 +53,7 @@ def of_a_mount(seen, mount, sign):
     return ""
 
 
-def of_a_turned_mount(turn):
+def of_a_turned_mount(turn: list[float]) -> str:
     """Say about which axis a transform turns the lidar, given x, y and z of the quaternion."""
     largest = max(range(3), key=lambda each: abs(turn[each]))
     angle = 2 * math.asin(max(-1.0, min(1.0, turn[largest])))
@@ -57,7 +61,7 @@ def of_a_turned_mount(turn):
     return f"the transform turns the lidar, which looks ahead, by {angle:.2f} rad about {axis}"
 
 
-def of_a_distance(measured, truth, mount):
+def of_a_distance(measured: np.ndarray, truth: np.ndarray, mount: float) -> str:
     """Explain distances to the wall that are wrong, given the true ones and the lidar's x in base_link."""
     for words, wrong in (
         ("the distance is measured from the lidar, and is asked for from base_link", truth - mount),
@@ -93,7 +97,7 @@ def of_a_distance(measured, truth, mount):
     return ""
 
 
-def of_a_driver(distance, speed, wanted):
+def of_a_driver(distance: np.ndarray, speed: np.ndarray, wanted: float) -> str:
     """Explain speeds that are wrong, given the latest distance at each and the distance that was asked for."""
     left = distance - wanted
     if len(speed) < FEWEST:
@@ -168,7 +172,7 @@ def of_a_driver(distance, speed, wanted):
     return ""
 
 
-def of_kept_distances(times, distance, speed, wanted):
+def of_kept_distances(times: np.ndarray, distance: np.ndarray, speed: np.ndarray, wanted: float) -> str:
     """Explain a driver that soon stops for good, far from where it should, while distances go on arriving."""
     driven = np.flatnonzero(np.abs(speed) > STANDS)
     if not len(driven):
@@ -185,7 +189,7 @@ def of_kept_distances(times, distance, speed, wanted):
     )
 
 
-def of_an_end(end, last, speed, conditions):
+def of_an_end(end: float, last: float, speed: float, conditions: list[Any]) -> str:
     """Explain commands that end [ns] long before the run does, with a speed [m/s] that the cart keeps."""
     if end - last < 1e9 or abs(speed) <= STANDS:
         return ""
@@ -195,7 +199,7 @@ def of_an_end(end, last, speed, conditions):
     )
 
 
-def _drives(speed, left):
+def _drives(speed: np.ndarray, left: np.ndarray) -> bool:
     """Whether the commands are those of the driver as it was given, with `left` [m] to drive.
 
     Where the fastest speed cuts them off, they say nothing about the way that is left.
@@ -205,7 +209,7 @@ def _drives(speed, left):
     return _fits(speed, commands) and _fits(speed[free], commands[free])
 
 
-def _adds_up(speed, left):
+def _adds_up(speed: np.ndarray, left: np.ndarray) -> bool:
     """Whether each command differs from the one before in proportion to what is left [m]."""
     steps, inside = np.diff(speed), np.abs(speed) < 0.98 * np.abs(speed).max()
     free = inside[1:] & inside[:-1] & (np.abs(left[1:]) > CLOSE)
@@ -216,7 +220,7 @@ def _adds_up(speed, left):
     return usual > 1e-3 and bool(np.mean(np.abs(shares - usual) < 0.2 * usual) > 0.7)
 
 
-def _aim(distance, speed):
+def _aim(distance: np.ndarray, speed: np.ndarray) -> float | None:
     """Return the distance at which the commands come to zero, if they fall in proportion to it; else None."""
     free = (np.abs(speed) < np.abs(speed).max() - STANDS) & (np.abs(speed) > STANDS)
     if free.sum() < FEWEST or np.ptp(distance[free]) < 4 * CLOSE or np.ptp(speed[free]) < 2 * STANDS:
@@ -227,7 +231,7 @@ def _aim(distance, speed):
     return round(float(-offset / gain), 3) + 0.0  # no -0
 
 
-def _fits(values, others):
+def _fits(values: np.ndarray, others: np.ndarray) -> bool:
     """Whether nearly all values are close to others."""
     if len(values) < FEWEST:
         return False

@@ -1,11 +1,16 @@
 """Why the two ends of the distance have different names, and what has ended a program; used by `checks.py`."""
 
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.launched import own_end
 from gz_course.sim.did_you_mean import nearest_name
 
 
-def of_a_remapping(rules, ends, sends, takes):
+def of_a_remapping(rules: list[Any], ends: list[Any], sends: str, takes: str) -> str:
     """Return why a remapping in the launch file does not join two topics: it is for another name, or exchanged."""
     for each in rules:
         space = f"/{each['namespace']}" if each["namespace"] else ""
@@ -33,14 +38,14 @@ def of_a_remapping(rules, ends, sends, takes):
     return ""
 
 
-def of_a_spelling(sends, takes):
+def of_a_spelling(sends: str, takes: str) -> str:
     """Return that two topics are the same but for a letter or two; empty if they differ in a whole part."""
     if sends.count("/") != takes.count("/") or not nearest_name(sends, [takes], cutoff=0.85):
         return ""
     return f"{sends} and {takes} are spelled differently: both ends need the very same name"
 
 
-def of_a_node(ends, topics):
+def of_a_node(ends: list[Any], topics: set[str]) -> str:
     """Return why a topic has the name of a node, or of its namespace, in front."""
     for end in ends:
         namespace = end["node"].rpartition("/")[0]
@@ -55,7 +60,7 @@ def of_a_node(ends, topics):
     return ""
 
 
-def ended_by_itself(recording, ended, expected):
+def ended_by_itself(recording: Recording, ended: dict[str, Any], expected: str) -> Finding:
     """Return the finding about a program that ended without an error, with the line that ends it if one is known."""
     why = "" if ended["code"] else own_end(recording, ended["program"])
     measured = f"{ended['program']} had ended with exit code {ended['code']}"

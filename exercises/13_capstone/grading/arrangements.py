@@ -1,5 +1,10 @@
 """Common mistakes with the place and the value of a cell, and the map as it is without each, for `checks.py`."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
 import numpy as np
 
 from gz_course.grader.score.floor import Grid, grown
@@ -9,7 +14,7 @@ OCCUPIED, FREE = 65, 25  # at least, at most
 GRID = Grid(RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM)
 
 
-def rearranged(marked):
+def rearranged(marked: np.ndarray) -> Iterator[Any]:
     """Yield common mistakes with rows and columns, and the map as it is without each."""
     data = marked.ravel()
     yield "rows and columns are exchanged: the place in data is row * width + column", data.reshape(WIDTH, HEIGHT).T
@@ -20,7 +25,7 @@ def rearranged(marked):
     yield "rows have the wrong length: the place in data is row * width + column, with width 100", strided(data)
 
 
-def shifted(marked):
+def shifted(marked: np.ndarray) -> Iterator[Any]:
     """Yield mistakes with the origin, and what can be seen of the map without each."""
     shift = round(-BOTTOM / RESOLUTION), round(-LEFT / RESOLUTION)
     quadrant = np.zeros_like(marked)
@@ -30,21 +35,21 @@ def shifted(marked):
     yield words, np.roll(marked, shift, (0, 1))
 
 
-def transposed(marked):
+def transposed(marked: np.ndarray) -> np.ndarray:
     """Return a map as it is if x had been taken for the row: cells [x, y], as far as both are in the map."""
     out = np.zeros_like(marked)
     out[:, :HEIGHT] = marked[:, :HEIGHT].T
     return out
 
 
-def strided(data):
+def strided(data: np.ndarray) -> np.ndarray:
     """Return a map as it is if the length of a row had been taken for 80."""
     row, column = np.divmod(np.arange(len(data)), WIDTH)
     place = np.minimum(row * HEIGHT + column, len(data) - 1)
     return data[place].reshape(HEIGHT, WIDTH)
 
 
-def wrong_values(said, fits):
+def wrong_values(said: np.ndarray, fits: Callable[[np.ndarray], bool]) -> str:
     """Return what is wrong with the numbers in a map whose walls are in the right places; empty if nothing is."""
     most = said.max()
     if 0 < most < OCCUPIED and fits(said == most):
@@ -56,7 +61,7 @@ def wrong_values(said, fits):
     return ""
 
 
-def other_unknown(said, seen):
+def other_unknown(said: np.ndarray, seen: np.ndarray) -> str:
     """Return that most cells that no ray has touched hold a number that means nothing, such as 50; else nothing."""
     values = said[~seen]
     other = values[(values != -1) & ((values < 0) | (values > FREE) & (values < OCCUPIED))]
@@ -65,7 +70,9 @@ def other_unknown(said, seen):
     return f"unknown cells hold {np.median(other):g}: in an OccupancyGrid the number for unknown is -1"
 
 
-def moved(marked, solid, start=(0.0, 0.0, 0.0)):
+def moved(
+    marked: np.ndarray, solid: np.ndarray, start: tuple[float, float, float] = (0.0, 0.0, 0.0)
+) -> Iterator[tuple[str, np.ndarray]]:
     """Yield by how many cells the walls of a map are beside those that stand there, and the map without it.
 
     `start` (x, y, heading) is the first pose of the robot: a map that is moved by it was drawn from the start.
@@ -90,7 +97,7 @@ def moved(marked, solid, start=(0.0, 0.0, 0.0)):
     yield words, out
 
 
-def best_shift(marked, solid):
+def best_shift(marked: np.ndarray, solid: np.ndarray) -> tuple[int, int]:
     """Return by how many cells (x, y) a map must be moved back to have most of its walls where walls are."""
     size = (2 * HEIGHT, 2 * WIDTH)
     spectrum = np.fft.rfft2(marked, size) * np.conj(np.fft.rfft2(solid, size))
@@ -101,7 +108,7 @@ def best_shift(marked, solid):
     return int(column) - WIDTH, int(row) - HEIGHT
 
 
-def arcs(marked, solid, ends, said):
+def arcs(marked: np.ndarray, solid: np.ndarray, ends: np.ndarray, said: np.ndarray) -> str:
     """Return that the ends of rays without a hit are drawn as walls; empty if they are not.
 
     Such ends lie nearly everywhere after a while: they must explain the wrong cells, and not the free ones as well.
@@ -115,7 +122,7 @@ def arcs(marked, solid, ends, said):
     return "rays without a hit are drawn as walls at range_max: inf is no hit"
 
 
-def scaled(points):
+def scaled(points: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Yield mistakes in which metres are turned into cells by another factor, and the cells (80, 100) they draw."""
     corner = np.array([LEFT, BOTTOM])
     for factor, words in (

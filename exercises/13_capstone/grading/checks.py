@@ -4,14 +4,19 @@ The truth is computed from the shapes of the world in the recording, from the si
 the scans as they were sent. Wrong maps are compared with those of common misconceptions; `driving.py` knows more.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from math import hypot
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.printable import shown
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.floor import Grid, grown, hits, misplaced, scans, shapes
+from gz_course.grader.score.floor import Grid, Scans, grown, hits, misplaced, scans, shapes
 from gz_course.grader.score.true_pose import true_poses
 
 from . import arrangements, driving, lags, rivals
@@ -34,14 +39,14 @@ MARGIN = 0.003  # [m] between the robot and what it does not touch
 MAP = "topics/map"
 
 
-def info(recording, name):
+def info(recording: Recording, name: str) -> float:
     """Return the last value of a field of `info`; NaN if there is none."""
     values = recording.signal(f"{MAP}/info/{name}").values
     return float(values[-1]) if len(values) else float("nan")
 
 
-def grid(recording, number=-1):
-    """Return a map as the cells of the task (80, 100), and when it came [s]; None if there is none that can be read.
+def grid(recording: Recording, number: int = -1) -> tuple[np.ndarray | None, float]:
+    """Return a map as the cells of the task (80, 100), and when it came [s]; no map if there is none that can be read.
 
     A map with as many cells as asked for is read as the task says. Another one is read by its own layout.
     """
@@ -62,25 +67,25 @@ def grid(recording, number=-1):
     return out.reshape(HEIGHT, WIDTH), at
 
 
-def no_map(recording):
+def no_map(recording: Recording) -> str:
     """Return why there is no map that can be read."""
     if not recording.has(f"{MAP}/count"):
         return "no map was published"
-    number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
+    number = len((recording.arrays(f"{MAP}/data")[1] or [np.zeros(0)])[-1])
     size = f"{info(recording, 'width'):g} x {info(recording, 'height'):g}"
     if not number and info(recording, "width") * info(recording, "height") > WIDTH * HEIGHT:
         return f"info of the last map says {size} cells; so long a list is not recorded"
     return f"data of the last map had {number} numbers, and info says {size} cells"
 
 
-def layout(recording, parameters):
+def layout(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if frame, resolution, size, origin and the number of cells are those of the task."""
     expected = "frame odom, 100 x 80 cells of 0.1 m, origin (-5, -4) with orientation.w 1, 8000 numbers"
     if not recording.has(f"{MAP}/info/width"):
         return Finding(False, expected, "no map was published")
     width, height, size = info(recording, "width"), info(recording, "height"), info(recording, "resolution")
     x, y, w = (info(recording, f"origin/{n}") for n in ("position/x", "position/y", "orientation/w"))
-    number = len((recording.arrays(f"{MAP}/data")[1] or [[]])[-1])
+    number = len((recording.arrays(f"{MAP}/data")[1] or [np.zeros(0)])[-1])
     frames = [line.text for line in recording.lines(f"{MAP}/header/frame_id")]
     frame = frames[-1] if frames else ""
     seen = f"frame {shown(frame, 40)!r}, {width:g} x {height:g} cells of {size:.3g} m, origin ({x:g}, {y:g})"
@@ -98,7 +103,7 @@ def layout(recording, parameters):
     return Finding(not wrong, expected, seen, explanation="; ".join(wrong))
 
 
-def walls(recording, parameters):
+def walls(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the cells that the scanner has hit are occupied in the last map, or a cell beside them is."""
     expected = f"{WALLS:.0%} of the cells that the scanner hit are occupied, to one cell"
     said, at = grid(recording)
@@ -124,14 +129,14 @@ def walls(recording, parameters):
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
-def earlier_walls(recording):
+def earlier_walls(recording: Recording) -> np.ndarray | None:
     """Return which cells were occupied in one of the earlier maps; None if there are few."""
     numbers = range(2, len(recording.arrays(f"{MAP}/data")[0]) - 1, 3)
     maps = [said for number in numbers if (said := grid(recording, number)[0]) is not None]
     return np.any([said >= OCCUPIED for said in maps], axis=0) if len(maps) > 2 else None
 
 
-def no_ghosts(recording, parameters):
+def no_ghosts(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the occupied cells of the last map are at obstacles."""
     expected = f"{TRUE:.0%} of the occupied cells are at an obstacle, to one cell"
     said, at = grid(recording)
@@ -151,7 +156,7 @@ def no_ghosts(recording, parameters):
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
-def known_before(recording):
+def known_before(recording: Recording) -> tuple[str, float, str] | None:
     """Return what was measured, when [s], and why it is wrong, if the first map shows walls before they were hit.
 
     Walls that do stand there are forgiven: only other rooms show that they were known by heart.
@@ -169,7 +174,7 @@ def known_before(recording):
     return None
 
 
-def free(recording, parameters):
+def free(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if what rays have passed is free in the last map, hardly anything else is, and unknown is -1."""
     expected = (
         f"{SEEN:.0%} of the cells that rays passed are free, and at most {NEVER_SEEN:.0%} of the free ones are others, "
@@ -214,12 +219,12 @@ def free(recording, parameters):
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
-def ever_seen(every):
+def ever_seen(every: Scans) -> np.ndarray:
     """Return the cells, to one cell, that any ray has passed or hit."""
     return grown(along(every, 0, every.ends, np.ones_like(every.hit)) > 0)
 
 
-def behind_hits(recording, said, every):
+def behind_hits(recording: Recording, said: np.ndarray, every: Scans) -> str:
     """Return that cells behind the hits are free, if most of the free cells that were never seen are there."""
     unseen = (said >= 0) & (said <= FREE) & ~ever_seen(every)
     behind = grown(along(every, every.ends, every.ends + 2, every.hit) > 0)
@@ -228,13 +233,13 @@ def behind_hits(recording, said, every):
     return "cells behind the hits are free: a ray says nothing about what is behind its hit"
 
 
-def walls_are_right(recording, said):
+def walls_are_right(recording: Recording, said: np.ndarray) -> bool:
     """Return whether the occupied cells of a map, if there are any, are at obstacles."""
     marked = (said >= OCCUPIED).ravel()
     return not marked.any() or (shapes(recording).nearest(middles()[marked]) <= OFF).mean() >= FITS
 
 
-def explored(recording, parameters):
+def explored(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if so large a share of the rooms was seen and is free in the last map."""
     wanted = parameters["share"]
     expected = f"at least {wanted:.0%} of the free cells of the rooms are seen, and free in the map"
@@ -264,7 +269,7 @@ def explored(recording, parameters):
     return Finding(False, expected, measured, explanation=words)
 
 
-def not_as_it_was_seen(recording, said, every):
+def not_as_it_was_seen(recording: Recording, said: np.ndarray, every: Scans) -> str:
     """Return what is wrong with a map by which a robot may drive; empty if it shows what was seen."""
     if not walls_are_right(recording, said):
         return why(recording, said, every)
@@ -275,7 +280,7 @@ def not_as_it_was_seen(recording, said, every):
     return wrongly(recording, said, passed, hit)
 
 
-def reachable(recording):
+def reachable(recording: Recording) -> np.ndarray:
     """Return the cells (80, 100) that are free in truth and connected with the start of the robot."""
     open_cells = (shapes(recording).nearest(middles()) > RESOLUTION).reshape(HEIGHT, WIDTH)
     rooms = grown(grown(cells(true_poses(recording, np.zeros(1))[:, :2]) > 0)) & open_cells
@@ -286,7 +291,7 @@ def reachable(recording):
     return rooms
 
 
-def touches_nothing(recording, parameters):
+def touches_nothing(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if the robot, a disc, never came to an obstacle."""
     x, y = recording.signal("truth/robot/x"), recording.signal("truth/robot/y")
     expected = f"the robot's middle stays more than {parameters['radius']:g} m away from everything"
@@ -303,26 +308,26 @@ def touches_nothing(recording, parameters):
     name, at = names[int(distances[:, first].argmin())], float(x.times[first] / 1e9)
     words = f"the robot ran into {name} at {at:.1f} s, at ({x.values[first]:.1f}, {y.values[first]:.1f})"
     point = driving.nearest_point(shapes(recording), (x.values[first], y.values[first]))
-    there = map_at(recording, point, x.times[first])
+    there = map_at(recording, point, int(x.times[first]))
     words += f"; {driving.touched(recording, parameters['radius'], x.times[first], point, there)}"
     measured = f"it touched something in {touching.sum()} of {len(touching)} moments"
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
-def map_at(recording, point, when):
+def map_at(recording: Recording, point: np.ndarray, when: int) -> str:
     """Return what the last map before a time [ns] shows at a point [m]; empty if there is none."""
     number = int(np.sum(recording.arrays(f"{MAP}/data")[0] < when)) - 1
     said, at = grid(recording, number) if number >= 0 else (None, 0.0)
     return driving.in_the_map(said, point, at) if said is not None else ""
 
 
-def why(recording, said, scan):
+def why(recording: Recording, said: np.ndarray, scan: Scans) -> str:
     """Return the misconception that fits the occupied cells of a wrong map; empty if none does."""
     marked = said >= OCCUPIED
     solid = (shapes(recording).nearest(middles()) <= OFF).reshape(HEIGHT, WIDTH)
     hit = cells(hits(scan)) >= HITS
 
-    def fits(cells_of_walls):
+    def fits(cells_of_walls: Any) -> Any:
         """Say whether a map is right: its walls stand there, and they are those that were hit."""
         number = cells_of_walls.sum()
         return number >= FEWEST and solid[cells_of_walls].mean() >= FITS and grown(cells_of_walls)[hit].mean() >= FITS
@@ -354,7 +359,7 @@ def why(recording, said, scan):
     return first_arcs(recording, solid) or lags.drawn_late(said, marked, solid, scan)
 
 
-def first_arcs(recording, solid):
+def first_arcs(recording: Recording, solid: np.ndarray) -> str:
     """Return that the first map with walls has them where rays without a hit end; empty if it has not."""
     for said, at in with_walls(recording):
         scan = scans(recording, at)
@@ -362,10 +367,10 @@ def first_arcs(recording, solid):
     return ""
 
 
-def drawn_elsewhere(recording):
+def drawn_elsewhere(recording: Recording) -> str:
     """Return the mistake with pose or angles by which the first map with walls was drawn; empty if none fits."""
 
-    def compared(said, at):
+    def compared(said: np.ndarray, at: float) -> tuple[np.ndarray, np.ndarray, Iterator[Any]]:
         scan = scans(recording, at)
         return said >= OCCUPIED, cells(hits(scan)) > 0, ((each, cells(points) > 0) for each, points in misplaced(scan))
 
@@ -373,7 +378,7 @@ def drawn_elsewhere(recording):
     return (("heading" in words or "pose is" in words) and suspect(recording, "heading")) or words
 
 
-def with_walls(recording):
+def with_walls(recording: Recording) -> Iterator[tuple[np.ndarray, float]]:
     """Yield each map that has walls, and when it came [s]."""
     for number in range(len(recording.arrays(f"{MAP}/data")[0])):
         said, at = grid(recording, number)

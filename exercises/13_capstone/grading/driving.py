@@ -1,11 +1,16 @@
 """What is wrong with how a robot explored, or with what its map leaves out; `checks.py` asks for it."""
 
+from __future__ import annotations
+
 import re
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
-from gz_course.grader.score.floor import grown
+from gz_course.grader.record.reading import Recording
+from gz_course.grader.score.floor import Grid, Shapes, grown
 
 from . import last_commands
 
@@ -28,7 +33,7 @@ PLANNING = (
 )  # suspects in how a way is found and followed
 
 
-def other_origin(x, y, grid):
+def other_origin(x: float, y: float, grid: Grid) -> str:
     """Return what an origin [m] is instead of the corner of the first cell of a grid."""
     left, bottom, half = grid.left, grid.bottom, grid.resolution / 2
     right = f"the corner of the first cell is at ({left:g}, {bottom:g})"
@@ -44,12 +49,12 @@ def other_origin(x, y, grid):
     return right
 
 
-def commands(recording):
+def commands(recording: Recording) -> tuple[np.ndarray, np.ndarray]:
     """Return the commanded speeds [m/s] and turning rates [rad/s]."""
-    return tuple(recording.signal(f"topics/cmd_vel/{name}").values for name in ("linear/x", "angular/z"))
+    return recording.signal("topics/cmd_vel/linear/x").values, recording.signal("topics/cmd_vel/angular/z").values
 
 
-def stands(recording):
+def stands(recording: Recording) -> str:
     """Return why a robot never drove, as far as its commands and its file tell; empty if they do not."""
     ahead, turning = commands(recording)
     if not len(ahead):
@@ -67,7 +72,7 @@ def stands(recording):
     return suspect(recording, "pose", "way")
 
 
-def backwards(recording):
+def backwards(recording: Recording) -> str:
     """Return that the robot is commanded to drive backwards nearly always when it drives; empty if it is not."""
     ahead, _ = commands(recording)
     moving = ahead[np.abs(ahead) > 0.02]
@@ -79,7 +84,7 @@ def backwards(recording):
     )
 
 
-def sideways(recording):
+def sideways(recording: Recording) -> str:
     """Return that the robot is commanded to drive sideways; empty if it is not."""
     aside = recording.signal("topics/cmd_vel/linear/y").values
     _, turning = commands(recording)
@@ -96,7 +101,7 @@ def sideways(recording):
     )
 
 
-def slow_or_lost(recording):
+def slow_or_lost(recording: Recording) -> str:
     """Return why a robot that drove did not see all rooms; empty if that is not known."""
     ahead, _ = commands(recording)
     yaw = recording.signal("truth/robot/yaw").values
@@ -135,7 +140,7 @@ def slow_or_lost(recording):
     return ""
 
 
-def standing(recording):
+def standing(recording: Recording) -> str:
     """Return since when the robot stands, or turns on the spot; empty if it drove until near the end."""
     way = recording.signal("truth/robot/distance")
     last = float(way.times[np.argmax(way.values >= way.values[-1] - MOVED)] / 1e9)
@@ -144,7 +149,7 @@ def standing(recording):
     return f"the robot stayed where it was from {last:.0f} s on, and parts of the rooms were not seen"
 
 
-def how_it_turned(recording):
+def how_it_turned(recording: Recording) -> str:
     """Return what a robot that turned more than it drove did, as it is seen from outside."""
     yaw = np.unwrap(recording.signal("truth/robot/yaw").values)
     net, whole = abs(yaw[-1] - yaw[0]), float(np.abs(np.diff(yaw)).sum())
@@ -158,7 +163,7 @@ def how_it_turned(recording):
     return "it turned to and fro"
 
 
-def what_it_did(recording):
+def what_it_did(recording: Recording) -> str:
     """Return what a robot that drove little was commanded to do."""
     ahead, turning = commands(recording)
     if not len(ahead) or len(ahead) != len(turning):
@@ -174,7 +179,7 @@ def what_it_did(recording):
     return "most of the time it stood or turned"
 
 
-def in_the_map(said, point, at):
+def in_the_map(said: np.ndarray, point: np.ndarray, at: float) -> str:
     """Return whether a map that came at a time [s] shows what was touched at a point [m]; None if it shows nothing."""
     column, row = (int((point[i] + corner) / 0.1) for i, corner in ((0, 5.0), (1, 4.0)))
     around = said[max(row - 2, 0) : row + 3, max(column - 2, 0) : column + 3]
@@ -186,7 +191,7 @@ def in_the_map(said, point, at):
     return f"your map of {at:.1f} s does not show it: the cells there are {shown}"
 
 
-def touched(recording, radius, at, place, there=""):
+def touched(recording: Recording, radius: float, at: int, place: np.ndarray, there: str = "") -> str:
     """Return how the robot came to touch something at a time [ns], whose nearest point is at `place` (x, y) [m].
 
     `there` says whether the map showed it.
@@ -219,14 +224,14 @@ def touched(recording, radius, at, place, there=""):
     return f"it drove straight at it: nothing that the scanner sees ahead stops or turns the robot in time{more}"
 
 
-def without_a_way(recording, at):
+def without_a_way(recording: Recording, at: float) -> str:
     """Return that a robot drove ahead where it had no way, if its command at a time [ns] was that one."""
     said, signal = suspect(recording, "blind"), recording.signal("topics/cmd_vel/linear/x")
     speed, before = re.search(r"linear\.x is ([\d.]+)", said), signal.values[signal.times <= at][-5:]
     return said if speed and len(before) and np.any(np.abs(before - float(speed[1])) < 1e-3) else ""
 
 
-def drives_while_turning(recording):
+def drives_while_turning(recording: Recording) -> str:
     """Return that the robot never slows down where it turns hard; empty if it does."""
     ahead, turning = commands(recording)
     if len(ahead) != len(turning) or not len(ahead) or np.abs(turning).max() < 0.9:
@@ -240,7 +245,7 @@ def drives_while_turning(recording):
     )
 
 
-def unchanged(times, maps):
+def unchanged(times: np.ndarray, maps: list[np.ndarray]) -> str:
     """Return since when all maps that came [ns] are the same; empty if one of the second half differs."""
     same = next((n for n in range(len(maps) - 1, 0, -1) if not np.array_equal(maps[n], maps[n - 1])), 0)
     if len(maps) < 6 or same > 0.5 * len(maps):
@@ -251,7 +256,7 @@ def unchanged(times, maps):
     )
 
 
-def hardly_any(recording, said, maps, hit=None):
+def hardly_any(recording: Recording, said: np.ndarray, maps: list[np.ndarray], hit: np.ndarray | None = None) -> str:
     """Return what is odd about a map with hardly any walls, given all maps that came, and the cells that were hit."""
     if forgotten := suspect(recording, "forgets"):
         return forgotten
@@ -270,7 +275,7 @@ def hardly_any(recording, said, maps, hit=None):
     return "hardly any cell is occupied"
 
 
-def nearest_point(shapes, point):
+def nearest_point(shapes: Shapes, point: tuple[float, float]) -> np.ndarray:
     """Return the point of an obstacle that is nearest to one [m], found on rings around it."""
     for distance in np.arange(0.0, 0.5, 0.01):
         angles = np.linspace(-np.pi, np.pi, 73)
@@ -281,14 +286,14 @@ def nearest_point(shapes, point):
     return np.asarray(point)
 
 
-def by_own_origin(marked, columns, rows):
+def by_own_origin(marked: np.ndarray, columns: Any, rows: Any) -> Iterator[Any]:
     """Yield the map as it is if it was drawn for its own info.origin, which is off by so many cells."""
     if 0 < abs(columns) + abs(rows) < 60:
         words = "info.origin is not the corner that is asked for, and the cells are drawn for it: it is (-5, -4)"
         yield words, np.roll(marked, (round(rows), round(columns)), (0, 1))
 
 
-def unclear(said, wanted):
+def unclear(said: np.ndarray, wanted: np.ndarray) -> str:
     """Return what the walls are if they are neither occupied nor free: values in between; empty if they are not."""
     values = said[grown(wanted)]
     between = (values > 25) & (values < 65)
@@ -300,11 +305,11 @@ def unclear(said, wanted):
     )
 
 
-def between_map(said):
+def between_map(said: np.ndarray) -> np.ndarray:
     return (said > 25) & (said < 65)
 
 
-def walls_missing(said, wanted, before, said_of=""):
+def walls_missing(said: np.ndarray, wanted: np.ndarray, before: np.ndarray | None, said_of: str = "") -> str:
     """Return why walls that were hit are not in the map `said`, given where any earlier map had walls, or None."""
     values = said[wanted]
     if before is not None:
@@ -327,7 +332,7 @@ def walls_missing(said, wanted, before, said_of=""):
     return ""
 
 
-def not_free(said, by_hits, by_others):
+def not_free(said: np.ndarray, by_hits: np.ndarray, by_others: np.ndarray) -> str:
     """Return why cells that rays passed are not free: those of rays with a hit, and those of rays without one only."""
     unknown = said < 0
     others = by_others & ~by_hits
@@ -348,7 +353,7 @@ def not_free(said, by_hits, by_others):
     return ""
 
 
-def thick(recording, said, hit):
+def thick(recording: Recording, said: np.ndarray, hit: np.ndarray) -> str:
     """Return by how many cells the walls of a map are widened around what was hit; empty if they are not."""
     marked = said >= 65
     if hit.sum() < 30 or marked.sum() < 2 * hit.sum():
@@ -365,7 +370,7 @@ def thick(recording, said, hit):
     return ""
 
 
-def widened(cells, by):
+def widened(cells: np.ndarray, by: float) -> np.ndarray:
     """Return the cells at most `by` cells away from those that are set."""
     out, most = cells.copy(), int(by)
     for row in range(-most, most + 1):

@@ -1,8 +1,10 @@
 """Maps in which scans are drawn from where the robot was a little earlier or later than when they were taken."""
 
+from __future__ import annotations
+
 import numpy as np
 
-from gz_course.grader.score.floor import Grid, grown, hits
+from gz_course.grader.score.floor import Grid, Scans, grown, hits
 
 GRID = Grid(0.1, 100, 80, -5.0, -4.0)
 FREE = 25  # at most
@@ -13,7 +15,7 @@ FITS, MORE = 0.9, 0.3  # of the wrong cells; so much more than of the free ones
 CLEARER = 0.1  # by which the better of two directions in time explains more
 
 
-def drawn_late(said, marked, solid, scan):
+def drawn_late(said: np.ndarray, marked: np.ndarray, solid: np.ndarray, scan: Scans) -> str:
     """Return that the walls in a wrong place lie where old or later poses draw them; empty if they do not."""
     wrong = marked & ~grown(solid)
     free = (said >= 0) & (said <= FREE) & ~grown(solid)
@@ -41,7 +43,7 @@ def drawn_late(said, marked, solid, scan):
     return ""
 
 
-def earlier(pose, lag):
+def earlier(pose: np.ndarray, lag: float) -> np.ndarray:
     """Return the poses (n, 3) at which the robot was so many scans earlier, or later if negative."""
     number = np.arange(len(pose), dtype=float)
     at = np.clip(number - lag, 0, len(pose) - 1)

@@ -1,15 +1,18 @@
 """What a robot does after the last command for a while: it goes on as it was told."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.own_ends import ended_by_itself
+from gz_course.grader.record.reading import Recording
 
 LONG = 1.0  # [s] without a command, in which a robot goes on by the last one
 SHARE = 0.2  # of the run without commands, that explain what was not explored
 SLOW = 0.02  # [m/s], [rad/s]
 
 
-def kept(recording, touched=None):
+def kept(recording: Recording, touched: float | None = None) -> str:
     """Return that a robot went on by an old command until it touched something [s], or for a good part of the run.
 
     Without a time it must have done so for longer than a fifth of the run.

@@ -1,5 +1,10 @@
 """Which of several mistakes with poses or angles explains the walls of a map best: more maps decide between them."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
 from gz_course.grader.score.floor import grown
@@ -10,7 +15,7 @@ CLOSE = 0.97  # of what the best explains; another one that explains as much may
 MOST = 6  # maps that are looked at
 
 
-def best(maps):
+def best(maps: Iterator[Any] | list[Any]) -> str:
     """Return the mistake that explains the first map with walls; later ones decide if several do.
 
     `maps` yields the occupied cells, the cells that were hit, and each mistake with the cells that it would draw. The
@@ -23,7 +28,7 @@ def best(maps):
             least = max(FITS, grown(hit)[marked].mean() + CLEARER)
             sums = {words: share * back for words, (share, back) in shares.items() if share >= least and back >= BACK}
         else:
-            sums = {words: known + np.prod(shares[words]) for words, known in sums.items()}
+            sums = {words: known + float(np.prod(shares[words])) for words, known in sums.items()}
         if len(sums) < 2 or number >= MOST:
             break
     first, *others = sorted(sums, key=lambda words: -sums[words]) or [""]
@@ -32,6 +37,6 @@ def best(maps):
     return first
 
 
-def fit(marked, drawn):
+def fit(marked: np.ndarray, drawn: np.ndarray) -> tuple[float, float]:
     """Return how much of the occupied cells a mistake explains, and how much of what it draws is occupied."""
     return grown(drawn)[marked].mean(), grown(marked)[drawn].mean() if drawn.any() else 0.0

@@ -1,8 +1,11 @@
 """What a map that has no wall in a wrong place shows wrongly, so that a robot that drives by it is led astray."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.record.reading import Recording
 
 from . import driving
 
@@ -11,7 +14,7 @@ FEWEST = 30  # cells; fewer say nothing about a map
 MOST, MANY, FEW = 0.92, 0.5, 0.05  # shares of the cells that rays passed
 
 
-def wrongly(recording, said, passed, hit):
+def wrongly(recording: Recording, said: np.ndarray, passed: np.ndarray, hit: np.ndarray) -> str:
     """Return what is wrong with a map, given the cells that rays `passed`, and those that were `hit`; or nothing."""
     values, walls = said[passed], (said >= OCCUPIED).sum()
     if (values >= OCCUPIED).mean() > MANY:
