@@ -14,10 +14,13 @@ PACKAGES_OF_PACKAGES = {"sim", *(f"sim/{side}" for side in SIDES)}
 def modules():
     """Every module of ours: its path from the root, without `.py` and `/__init__.py` -> file.
 
-    Launch files and templates are not modules: they are written like a student's, with public names.
+    Launch files, templates and the nodes of exercises are not modules: they are written like a student's, with public
+    names.
     """
     found = {}
-    for path in sorted(each for top in ("sim", "grader") for each in (ROOT / top).rglob("*.py")):
+    files = [each for top in ("sim", "grader") for each in (ROOT / top).rglob("*.py")]
+    files += [each for each in ROOT.glob("exercises/*/grading/*.py") if each.name != "given_node.py"]
+    for path in sorted(files):
         parts = path.relative_to(ROOT).with_suffix("").parts
         if "template" in parts or parts[:4] == ("sim", "ros", "prefix", "share"):
             continue

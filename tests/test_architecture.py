@@ -101,16 +101,19 @@ WITHOUT_ROS = {
     *("ament_cmake", "cv_bridge", "laser_geometry", "launch", "launch_pytest", "launch_testing", "launch_xml"),
     *("launch_yaml", "prefix", "rosidl", "sensor_msgs_py", "tf_transformations"),
 }
+# What grades an exercise sees the recording, and nothing of another exercise.
+GRADERS = sorted({path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("exercises/*/grading/*.py")})
+FORBIDDEN |= {room: ("rclpy", "mujoco", "chapters", "exercises", "solutions", *RUNNING) for room in GRADERS}
 FORBIDDEN |= {
     room: (*FORBIDDEN.get(room, ()), "sim", *(ROS if room.removeprefix("sim/ros/") in WITHOUT_ROS else ()))
     for room in USES
 }
 # Exceptions: a room may import these, whatever is forbidden above.
-ALLOWED = {room: (room, *others) for room, others in USES.items()} | {AGENT: (AGENT,)}
+ALLOWED = {room: (room, *others) for room, others in USES.items()} | {room: (room,) for room in (AGENT, *GRADERS)}
 FOR_ALL = ("sim/child_end", "sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
 # A module that starts a program and imports how: what the program itself imports is another process.
 PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
-NO_ROS_MESSAGES = ("sim/gz", "grader/feedback", "grader/score", "grader/report")
+NO_ROS_MESSAGES = ("sim/gz", "grader/feedback", "grader/score", "grader/report", *GRADERS)
 
 
 @functools.cache
@@ -174,9 +177,20 @@ def test_a_forbidden_arrow_is_seen():
         ("sim/ros/launch/action", "sim/ros/launch_ros/actions"),
         ("grader/score/score", "sim/gz/msgs"),
         ("grader/exercise", "solutions"),
+        ("grader/score/score", "exercises/09_closed_loop/grading/wall"),
+        ("exercises/09_closed_loop/grading/wall", "exercises/08_sensors/grading/hall"),
+        ("exercises/09_closed_loop/grading/wall", "grader/run/run_loop"),
         (f"{AGENT}/course_agent/executor_monitor", "grader/errors"),
     ]:
         assert is_forbidden(name, imported), (name, imported)
+
+
+def test_one_module_loads_what_grades_the_exercises_and_by_name_only():
+    users = {name for name, path in modules().items() if f"{NAMESPACE}exercises" in path.read_text()}
+    assert users == {"grader/exercise/grading"}
+    assert {name for name in modules() if any(below(each, "runpy") for each in imports(name))} == {
+        f"{AGENT}/course_agent/{name}" for name in ("run_node", "tracebacks")
+    }
 
 
 def test_the_simulator_does_not_need_the_view():

@@ -302,3 +302,12 @@ def test_a_further_file_in_python_is_judged_too(exercise, tmp_path):
     path = write(tmp_path / "teleop_node.py", "x = 1")
     write(tmp_path / "driver.py", "def (")
     assert "driver.py, line 1" in str(take_in(dataclasses.replace(exercise, files=("driver.py",)), path).fault)
+
+
+def test_what_grades_an_exercise_is_no_part_of_a_submission(exercise, tmp_path):
+    for name in ("teleop_node.py", "grading/exercise.toml", "grading/checks.py", "grading_of_maps/own.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("x = 1")
+    assert set(take_in(exercise, tmp_path).files) == {"teleop_node.py", "grading_of_maps/own.py"}
+    (tmp_path / "grading/exercise.toml").unlink()
+    assert "grading/checks.py" in take_in(exercise, tmp_path).files, "a folder of the student's that is called so"

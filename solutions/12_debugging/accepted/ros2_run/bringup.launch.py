@@ -16,11 +16,11 @@ def ros2_run(package, executable, *arguments):
 
 
 def generate_launch_description():
-    world = DeclareLaunchArgument("world", default_value="bay.sdf", description="World file beside this one")
+    world = DeclareLaunchArgument("world", default_value="bay.sdf", description="World file in worlds")
     stop_at = DeclareLaunchArgument("stop_at", default_value="1.0", description="Distance to the wall [m]")
 
     simulator = ExecuteProcess(
-        cmd=["gz", "sim", "-s", "-r", PathJoinSubstitution([str(HERE), LaunchConfiguration("world")])],
+        cmd=["gz", "sim", "-s", "-r", PathJoinSubstitution([str(HERE / "worlds"), LaunchConfiguration("world")])],
         output="screen",
     )
     config_file = f"config_file:={HERE / 'bridge.yaml'}"

@@ -77,12 +77,14 @@ def test_parents_come_first_and_every_place_has_them(places):
 def test_a_grader_that_is_installed_beside_the_libraries_is_masked(places, tmp_path, monkeypatch):
     site = tmp_path / "venv/lib/site-packages"
     package = site / "gz_course"
-    for name in ("grader/run/sandbox/init", "grader/run/agent", "grader/score", "sim"):
+    for name in ("grader/run/sandbox/init", "grader/run/agent", "grader/score", "sim", "exercises/03_teleop/grading"):
         (package / name).mkdir(parents=True)
     monkeypatch.setattr(module, "_python", lambda: [tmp_path / "venv"])
     monkeypatch.setattr(module, "_package", lambda name: site.joinpath(*name.split(".")))
+    monkeypatch.setattr(module.gz_course, "__file__", str(package / "__init__.py"))
     found = places()
     assert found[str(package / "grader")] == Place("mask", str(package / "grader"))
     assert found[str(package / "grader/run")].kind == "folder"
     assert shown(found, package / "grader/run/sandbox/init") and shown(found, package / "sim")
     assert shown(found, package / "grader/score") is None
+    assert shown(found, package / "exercises/03_teleop/grading") is None and shown(found, package / "__init__.py")
