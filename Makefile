@@ -16,7 +16,10 @@ COMPILE := $(BIN)/python -m compileall -q sim grader public
 FILTER := ! git rev-parse --git-dir >/dev/null 2>&1 || \
     git config filter.notebook-outputs.clean 'python3 -I -S grader/tools/notebook_outputs.py'
 
-.PHONY: setup chapters update demo test verify prove-exercises prove-long attacks prove-determinism soak bench book fuzz worlds lint clean
+# Where a student works: chapters and exercises, without solutions and grader. Authors: `make chapters MINE=.`
+MINE ?= my_course
+
+.PHONY: setup chapters my-course update demo test verify prove-exercises prove-long attacks prove-determinism soak bench book fuzz worlds lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -34,17 +37,20 @@ setup: .venv/with-course
 	$(PIP) --editable '.[dev]'
 	@touch $@
 
-# Opens JupyterLab where its file list shows chapters/ and exercises/.
-chapters: .venv/with-chapters
-	@$(FILTER)
-	PATH="$(CURDIR)/$(BIN):$$PATH" exec $(BIN)/jupyter lab $(JUPYTER_OPTIONS) chapters/00_first_run/00_first_run.ipynb \
-	    --ServerApp.root_dir="$(CURDIR)" \
+# Opens JupyterLab where its file list shows chapters/ and exercises/, and nothing else.
+chapters: .venv/with-chapters my-course
+	PATH="$(CURDIR)/$(BIN):$$PATH" exec $(BIN)/jupyter lab $(JUPYTER_OPTIONS) \
+	    "$(MINE)/chapters/00_first_run/00_first_run.ipynb" --ServerApp.root_dir="$(abspath $(MINE))" \
 	    --FileContentsManager.post_save_hook=gz_course.grader.tools.notebook_outputs.after_save
 
-# The newest version of the course: your own changes are set aside, and come back on top of it.
+my-course: .venv/with-course
+	@$(FILTER)
+	@$(BIN)/python -m gz_course.grader.course_folder.in_clone "$(MINE)"
+
+# The newest version of the course. Your own files in my_course stay; changes of the clone are set aside and come back.
 update:
 	git pull --quiet --rebase --autostash
-	@$(MAKE) --no-print-directory setup
+	@$(MAKE) --no-print-directory setup my-course
 	@echo "The course is up to date; CHANGELOG.md says what is new."
 
 demo: setup

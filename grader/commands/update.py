@@ -19,11 +19,6 @@ def command(
     """Bring newer chapters and exercises to your folder. What you have changed stays as it is."""
     folder = folder or course_root()
     changes = update(folder)
-    for name in (*changes.added, *changes.replaced, *changes.removed):
-        what = "new" if name in changes.added else "replaced" if name in changes.replaced else "removed"
-        if not name.startswith("."):
-            print(f"{what}: {name}")
-    for name, newer in changes.kept.items():
-        print(f"kept: {name} is yours; the newer one is {newer}")
+    print(*changes.lines, sep="\n", end="\n" if changes.lines else "")
     if changes == type(changes)():
         print(f"{folder} is up to date.")

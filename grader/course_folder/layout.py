@@ -38,6 +38,13 @@ class Changes:
     removed: list[str] = field(default_factory=list)
     kept: dict[str, str] = field(default_factory=dict)
 
+    @property
+    def lines(self) -> list[str]:
+        """What to tell the student: a line for each file, hidden ones aside."""
+        groups = (("new", self.added), ("replaced", self.replaced), ("removed", self.removed))
+        said = [f"{what}: {name}" for what, names in groups for name in names if not name.startswith(".")]
+        return said + [f"kept: {name} is yours; the newer one is {newer}" for name, newer in self.kept.items()]
+
 
 def handed_out(*, solutions: bool = False) -> dict[str, bytes]:
     """Return the files of a student's folder, by path. Raises UsageError if solutions are asked for and not there."""
@@ -67,18 +74,22 @@ def lay_out(folder: Path, *, solutions: bool = False) -> list[str]:
             what = "not empty" if folder.is_dir() else "a file"
             better = "; `course update` brings newer chapters there" if (folder / RECORD).is_file() else ""
             raise UsageError(f"{folder} is {what}; give a folder that is new or empty{better}")
-        files = handed_out(solutions=solutions)
-        existed = folder.exists()
-        try:
-            write(files, folder)
-            _record(folder, files)
-        except BaseException:
-            for each in folder.iterdir() if existed else [folder]:
-                shutil.rmtree(each, ignore_errors=True) if each.is_dir() else each.unlink()
-            raise
+        write_new(folder, handed_out(solutions=solutions))
     except OSError as error:
         raise UsageError(f"{folder} cannot be written: {error.strerror}") from None
     return exercise_names(folder)
+
+
+def write_new(folder: Path, files: dict[str, bytes]) -> None:
+    """Write the files of a folder that is new or empty, and their record. What is incomplete is removed."""
+    existed = folder.exists()
+    try:
+        write(files, folder)
+        _record(folder, files)
+    except BaseException:
+        for each in folder.iterdir() if existed else [folder]:
+            shutil.rmtree(each, ignore_errors=True) if each.is_dir() else each.unlink()
+        raise
 
 
 def update(folder: Path) -> Changes:
@@ -86,9 +97,13 @@ def update(folder: Path) -> Changes:
 
     Raises UsageError if the folder was not made by `course init`, by a newer version, or cannot be written.
     """
+    return bring(folder, handed_out(solutions=(folder / SOLUTIONS).is_dir() and (material() / SOLUTIONS).is_dir()))
+
+
+def bring(folder: Path, files: dict[str, bytes]) -> Changes:
+    """Bring files to a folder that has a record, and leave alone what the student has changed; raise as `update`."""
     before = _read_record(folder)
     changes = Changes()
-    files = handed_out(solutions=(folder / SOLUTIONS).is_dir() and (material() / SOLUTIONS).is_dir())
     try:
         for name, content in files.items():
             path, was = folder / name, before.get(name)
