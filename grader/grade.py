@@ -15,6 +15,7 @@ from gz_course.grader.printable import shown
 from gz_course.grader.process.output_lock import sole_writer
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.report.report import HostFacts, Report, TrialReport
+from gz_course.grader.run.limits import limits_of
 from gz_course.grader.run.supervision import Heartbeat, Supervised
 from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import Score, score
@@ -72,6 +73,7 @@ def grade(
         "; ".join(dict.fromkeys(each.pace for each in facts)),
         sum(each.run_wall_seconds for each in facts),
         time.monotonic() - started,
+        limits_of(exercise.duration, exercise.kind == "launch"),
     )
     return make_report(results, exercise, shown(str(submission.path), LONGEST_PATH), host)
 

@@ -6,6 +6,7 @@ Programs read the keys (README, "The JSON report"): keys may be added but never 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -36,6 +37,7 @@ class HostFacts:
     pace: str
     run_wall_seconds: float
     wall_seconds: float
+    limits: Mapping[str, float] = field(default_factory=dict)  # [s] for one run: `processor_seconds`, `wall_seconds`
 
 
 @dataclass(frozen=True)
@@ -153,6 +155,7 @@ class Report:
             "sim_seconds": self.sim_seconds,
             "run_wall_seconds": run_wall,
             "wall_seconds": host.wall_seconds if host else None,
+            "limits": dict(host.limits) if host else None,
             "real_time_factor": self.sim_seconds / run_wall if run_wall else None,
             "versions": self.versions,
         }

@@ -25,6 +25,7 @@ from gz_course.grader.run.console_log import ConsoleLog
 from gz_course.grader.run.endpoint_facts import EndpointFacts
 from gz_course.grader.run.fair_clock import Patience
 from gz_course.grader.run.grader_endpoints import GraderEndpoints, ros_twist
+from gz_course.grader.run.limits import MACHINES_FACTOR, time_limit
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
 from gz_course.grader.run.parameter_script import ParameterScript, record_parameter
@@ -40,11 +41,6 @@ from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 
 MOST_MESSAGES = 20_000  # of one topic that are recorded; the rest is counted
-# A run may take 2 x its simulated time + 10 s: of processor time in the student's processes, of waiting for them, and
-# of their clock beside what the grader itself computes. A machine that does not give it so much processor time in 20
-# times as much wall time is given up.
-TIME_FACTOR, TIME_GRACE = 2.0, 10.0
-MACHINES_FACTOR = 20.0
 LOOK_AGAIN = 1.0  # [s] of wall time between two looks at that
 LEVELS = {"[WARN]": "WARN", "[ERROR]": "ERROR", "[FATAL]": "CRITICAL", "[DEBUG]": "DEBUG"}
 
@@ -155,7 +151,7 @@ class RunLoop:
     @property
     def _time_limit(self) -> float:
         """Time [s] that a run may take."""
-        return TIME_FACTOR * self._exercise.duration + TIME_GRACE
+        return time_limit(self._exercise.duration)
 
     def _begin_to_watch(self) -> None:
         self._started = time.monotonic()
@@ -319,6 +315,7 @@ class RunLoop:
         return {
             "sim_seconds": self._now_ns / 1e9,
             "ready": ready,
+            **({"never_at_rest": True} if not ready and self._processes.spun else {}),
             "exit_at": self._exit_at,
             "exit_code": self._processes.exit_code if self._exit_at is not None else None,
             **self._graph_facts,

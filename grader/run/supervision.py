@@ -32,7 +32,7 @@ from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.process.forking import fork
 from gz_course.grader.process.temporary_folder import abandoned, sweep
 from gz_course.grader.run.sandbox.resource_monitor import descendants
-from gz_course.grader.run.watchdog import Look
+from gz_course.grader.run.watchdog import MACHINE, Look
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 PERIOD = 0.2  # [s] between two looks
@@ -146,6 +146,8 @@ class Supervised:
             state = self._heartbeat.read()
             if found := look.at(state[0], state[1], bool(state[2])):
                 signal.pidfd_send_signal(process, signal.SIGKILL)
+                if found[0] == MACHINE:
+                    raise InfrastructureError(found[1])
                 return _results(data)[0], Broken(state[0], *found)
         results, last = _results(data)
         if last == "end":

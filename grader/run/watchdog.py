@@ -1,5 +1,7 @@
 """What the watchdog beside a grading looks at: processor time, memory and progress; a busy machine changes none.
 
+Wall time has a limit, too (`limits.py`), which only a machine reaches that is far too busy.
+
 `supervision.py` runs a grading in a child process and asks `Look.at` every now and then whether to end it. The child
 tells how far it has come (`Heartbeat` there); everything else is read from /proc, from outside.
 
@@ -10,9 +12,11 @@ from __future__ import annotations
 
 import contextlib
 import os
+import time
 from pathlib import Path
 
 from gz_course.grader.run.fair_clock import FairClock
+from gz_course.grader.run.limits import wall_limit
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 
 MOST_MEMORY = 2 << 30  # [bytes] in use by the grader's process
@@ -23,6 +27,7 @@ CPU_SECONDS, CPU_FACTOR = 25.0, 8.0
 BOX_CPU_SECONDS, BOX_CPU_FACTOR = 45.0, 15.0  # the same for all processes of a submission together
 STILL_CPU_SECONDS = 45.0  # processor time of both together [s] while simulated time stands still
 LONGEST_WAIT = 60.0  # [s] in which nobody computes and simulated time stands still
+MACHINE = "infra"  # outcome of what the machine had no time for
 _TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -39,6 +44,7 @@ class Look:
         self._own = self._box = 0.0  # processor time [s] when the job began
         self._still = 0.0  # that of both when simulated time last went on
         self._idle = 0.0  # by the clock, then
+        self._began = time.monotonic()
 
     def at(self, job: int, sim_time_ns: int, handed_in: bool) -> tuple[str, str] | None:
         """Look once. `handed_in`: the child simulates a world that was handed in."""
@@ -46,7 +52,7 @@ class Look:
         box = sum(cpu_seconds(each, with_ended=True) for each in descendants(self._pid, self._apart))
         idle = self._clock.idle()
         if job != self._place[0]:
-            self._own, self._box = own, box
+            self._own, self._box, self._began = own, box, time.monotonic()
         if (job, sim_time_ns) != self._place:
             self._place, self._still, self._idle = (job, sim_time_ns), own + box, idle
         own_spent, box_spent = own - self._own, box - self._box
@@ -75,6 +81,11 @@ class Look:
             return "timeout", (
                 f"Nothing was computed and simulated time stood still for {LONGEST_WAIT:.0f} s {when}: "
                 "something you started waits for what never comes."
+            )
+        if (wall := time.monotonic() - self._began) > wall_limit(self._duration):
+            return MACHINE, (
+                f"this machine is too busy: {sim_time_ns / 1e9:.2f} s of simulated time took {wall:.0f} s, and the "
+                f"run had a processor for {own_spent + box_spent:.0f} s; grade again"
             )
         return None
 

@@ -169,6 +169,12 @@ def never_spun(recording: Recording, facts: dict[str, Any]) -> str:
         return ""
     if facts.get("stopped"):
         return "Your node's process was stopped by a signal (such as SIGSTOP) and never went on: nothing runs in it."
+    if facts.get("never_at_rest"):
+        return (
+            "Your node is spun, but its process never comes to rest: beside spinning, or in a callback, it computes "
+            "without end, so nobody can tell when it has dealt with a message. Let what loops wait in each round, with "
+            "time.sleep() or for an event, or do its work in a timer."
+        )
     return "Your node's process ran but never spun: no timer and no callback can run before rclpy.spin(node) is called."
 
 

@@ -18,12 +18,12 @@ from gz_course.grader.kinds.launch.simulated_programs import SimulatedPrograms
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
 from gz_course.grader.run.fair_clock import Patience
+from gz_course.grader.run.limits import time_limit
 from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import RealTime
 from gz_course.grader.run.run_loop import RunLoop
 
 SIMULATOR_PATIENCE = 5.0  # [s], once nobody is starting up, for a simulator to be started
-START_UP = 20.0  # [s] more than a single node gets
 BEATS = 10  # how often a paused world tells its time, in a run
 END_PATIENCE = 13.0  # [s] after Ctrl-C; launch itself escalates after 5 s and after 10 s
 MASKED = (  # what differs between equal runs
@@ -122,7 +122,7 @@ class LaunchRunLoop(RunLoop):
     @property
     def _time_limit(self) -> float:
         """More than for one node: several processes come up."""
-        return super()._time_limit + START_UP
+        return time_limit(self._exercise.duration, launched=True)
 
     def _state(self) -> dict[str, Any]:
         """Return the facts about what runs at the end, before the launch gets Ctrl-C."""

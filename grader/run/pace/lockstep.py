@@ -23,6 +23,7 @@ from gz_course.grader.run.pace.late_joiners import LateJoiners
 from gz_course.grader.run.pace.matching import can_match, will_match
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, PATIENCE, RealTime
 from gz_course.grader.run.processes.participant import Participant
+from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 
 if TYPE_CHECKING:
@@ -115,21 +116,25 @@ class LockStep(RealTime):
                 each.tell(order)
 
     def _matched(self) -> bool:
-        return super()._matched() and (not self._holding or self._matched_with_each_other())
+        free = self._free or not self._holding
+        holding = free or all(each.progress and each.progress.holding for each in self._participants)
+        return holding and super()._matched()
 
-    def _matched_with_each_other(self) -> bool:
-        if not (self._free or all(each.progress and each.progress.holding for each in self._participants)):
-            return False
+    def _missing(self) -> list[Endpoint]:
+        return super()._missing() + (self._missing_each_other() if self._holding else [])
+
+    def _missing_each_other(self) -> list[Endpoint]:
         endpoints = [e for e in self.processes.endpoints if e.topic not in HOUSEKEEPING]
         publishers = [e for e in endpoints if e.kind == "publisher"]
         subscriptions = [e for e in endpoints if e.kind == "subscription"]
-        return all(
-            e.matched >= can_match(e, self.ros) + sum(will_match(e, other) for other in subscriptions)
-            for e in publishers
-        ) and all(
-            e.matched >= can_match(e, self.ros) + sum(will_match(other, e) for other in publishers)
-            for e in subscriptions
-        )
+        missing = []
+        for e in publishers:
+            others = sum(will_match(e, other) for other in subscriptions)
+            missing += [e] if e.matched < can_match(e, self.ros) + others else []
+        for e in subscriptions:
+            others = sum(will_match(other, e) for other in publishers)
+            missing += [e] if e.matched < can_match(e, self.ros) + others else []
+        return missing
 
     def send(self, topic: str, publisher: Any, message: Any, now_ns: int) -> None:
         """Publish one message, unless nobody subscribes to it."""

@@ -11,10 +11,12 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.run.fair_clock import Patience
+from gz_course.grader.run.limits import MOST_HELD
 from gz_course.grader.run.pace.log_arrival import LogArrival
 from gz_course.grader.run.pace.matching import can_match
 from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.process_tree import START_UP
+from gz_course.grader.run.processes.progress import Endpoint
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 
 if TYPE_CHECKING:
@@ -22,7 +24,9 @@ if TYPE_CHECKING:
 
 PATIENCE = 3.0  # [s] a node may need for one message before it is paced
 MATCHING = 5.0  # [s] for DDS to match the endpoints of a new node; a lost announcement costs 3 s
-MOST_HELD = 45.0  # [s] in which simulated time is held for processes that start up, all of a run together
+# A tick of wall time is prolonged by what others took from the nodes since the last one, to so many ticks at most: on a
+# machine that is busier than that, the delays of one tick would prolong the next, and so on without end.
+LONGEST_TICK = 20
 LOOK_ROUND = 0.002  # [s] to wait for the student's processes between two looks at ROS
 
 
@@ -38,6 +42,7 @@ class RealTime:
         self.paced_ticks = 0
         self.held_up = 0.0  # [s] for which the processes were waited for that had not come to rest
         self.flooded = False  # whether more was sent at one simulated time than is allowed
+        self._in_vain: set[tuple[str, ...]] = set()  # endpoints that did not match within `MATCHING`
         self._due: float | None = None
         self._delayed = 0.0  # [s] by which the clock of the processes had stood still when the last tick was paced
         self._starting: dict[Participant, Patience] = {}
@@ -87,20 +92,29 @@ class RealTime:
         """Let a process that has joined take part; in real time it is not waited for."""
 
     def await_matches(self) -> None:
-        """Wait until every endpoint that can match has matched on both sides, for `MATCHING` at most."""
+        """Wait until every endpoint that can match has matched on both sides, for `MATCHING` at most.
+
+        Who has not matched then is not waited for again.
+        """
         patience = Patience(self.processes.clock, MATCHING)
         while self.processes.running and not self._matched() and not patience.over():
             for each in self.processes.participants:
                 each.tell({"look": True})  # a process that sleeps does not look by itself
             self.processes.wait(LOOK_ROUND)
             self.ros.pump()
+        missing = {each.identity for each in self._missing()}
+        self._in_vain = missing if patience.over() else self._in_vain & missing
 
     def _matched(self) -> bool:
-        endpoints = self.processes.endpoints
-        wanted = Counter((e.topic, e.kind) for e in endpoints if can_match(e, self.ros))
-        return all(self.ros.matched(topic, kind) >= n for (topic, kind), n in wanted.items()) and all(
-            e.matched for e in endpoints if can_match(e, self.ros)
-        )
+        """Return whether all have matched but those that were waited for in vain, such as for their deadline."""
+        return all(each.identity in self._in_vain for each in self._missing())
+
+    def _missing(self) -> list[Endpoint]:
+        """Return the endpoints of the submission that should match the grader's, and have not on both sides."""
+        endpoints = [e for e in self.processes.endpoints if can_match(e, self.ros)]
+        wanted = Counter((e.topic, e.kind) for e in endpoints)
+        short = {key for key, number in wanted.items() if self.ros.matched(*key) < number}
+        return [e for e in endpoints if not e.matched or (e.topic, e.kind) in short]
 
     def everything_arrived(self) -> bool:
         """Return whether all that the processes published has arrived; then confirm it to those that wait for that."""
@@ -189,10 +203,14 @@ class RealTime:
         """Wait for the consequences of the last message; in real time there is no waiting."""
 
     def close_tick(self, tick: float) -> None:
-        """Receive messages until the wall clock has advanced by `tick` [s], and by what others took from the nodes."""
+        """Receive messages until the wall clock has advanced by `tick` [s], and by what others took from the nodes.
+
+        In all it takes `LONGEST_TICK` ticks at most.
+        """
         now, delayed = time.monotonic(), self.processes.clock.delayed()
         self._due = max(now - tick, self._due) + tick if self._due is not None else now + tick
-        self._due, self._delayed = self._due + delayed - self._delayed, delayed
+        self._due = min(self._due + delayed - self._delayed, now + LONGEST_TICK * tick)
+        self._delayed = delayed
         while True:
             left = self._due - time.monotonic()
             if left <= 0:

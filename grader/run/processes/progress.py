@@ -19,6 +19,11 @@ class Endpoint:
     durability: str
     matched: int
 
+    @property
+    def identity(self) -> tuple[str, ...]:
+        """All of it but how many it has matched."""
+        return (self.node, self.kind, self.topic, self.type, self.reliability, self.durability)
+
 
 @dataclass(frozen=True)
 class Progress:

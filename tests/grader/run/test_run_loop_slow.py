@@ -5,10 +5,11 @@ from types import SimpleNamespace
 import pytest
 
 from gz_course.grader.errors import InfrastructureError
-from gz_course.grader.run.run_loop import MACHINES_FACTOR, TIME_FACTOR, TIME_GRACE, RunLoop
+from gz_course.grader.run.limits import MACHINES_FACTOR, time_limit
+from gz_course.grader.run.run_loop import RunLoop
 
 DURATION = 5.0
-LIMIT = TIME_FACTOR * DURATION + TIME_GRACE
+LIMIT = time_limit(DURATION)
 
 
 @pytest.fixture

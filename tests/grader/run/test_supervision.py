@@ -100,6 +100,12 @@ def test_too_much_is_an_outcome_with_a_sentence(impatient, job, outcome, words):
     assert words in broken.sentence
 
 
+def test_a_machine_that_is_far_too_busy_is_no_fault_of_the_submission(monkeypatch):
+    monkeypatch.setattr(watchdog, "wall_limit", lambda duration: 0.5)
+    with pytest.raises(InfrastructureError, match=r"this machine is too busy: 0.00 s of simulated time took"):
+        run(sleeps)
+
+
 def test_a_crash_before_anything_was_handed_in_is_ours():
     with pytest.raises(InfrastructureError, match="SIGSEGV"):
         run(functools.partial(crashes, signal.SIGSEGV, False))

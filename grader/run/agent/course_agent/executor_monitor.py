@@ -34,7 +34,7 @@ from collections import Counter, deque
 from collections.abc import Callable
 from typing import Any
 
-from . import grader_requests
+from . import grader_requests, other_domains
 from .channel import Channel
 from .endpoint_description import KEPT, described, qos_can_match
 from .history import History
@@ -300,10 +300,10 @@ class ExecutorMonitor:
         return self._topics.get(RELIABLE, {}).get(topic) == kind
 
     def topic_of(self, endpoint: Any) -> str:
-        """Return the resolved topic name of a publisher or subscription."""
+        """Return the resolved topic name of a publisher or subscription, with its domain if that is another one."""
         topic = self._topic_of.get(id(endpoint))
         if topic is None:
-            topic = self._topic_of[id(endpoint)] = endpoint.topic_name
+            topic = self._topic_of[id(endpoint)] = endpoint.topic_name + other_domains.of(endpoint)
         return topic
 
     def impatient(self) -> bool:
@@ -366,7 +366,7 @@ class ExecutorMonitor:
                 self._found_at = {topic: min(at, time_ns()) for topic, at in self._found_at.items()}
                 for publisher in [p for n in self._nodes.values() for p in n.publishers]:
                     publisher.course_found = getattr(publisher, "course_found", "found")
-            sources = [n._time_source for n in self._nodes.values() if n._time_source.ros_time_is_active]
+            sources = [n._time_source for n in self._nodes.values() if other_domains.follows_clock(n)]
             report: dict[str, Any] = {
                 "clock": min((self.clock_seen.get(id(s), 0) for s in sources), default=None),
                 "idle": flushing or idle,

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import atexit
 import copy
+import functools
 import json
 import os
 import sys
 from typing import Any
 
+from . import other_domains
 from .channel import channel
 from .endpoint_description import type_name
 from .executor_monitor import HOLD, HOUSEKEEPING, SIMULATED_CLOCKS, TOPICS, ExecutorMonitor
@@ -64,6 +66,7 @@ RELIED_UPON: dict[str, Reliance] = {
     "rclpy.node:Node.destroy_publisher": EXISTS,
     "rclpy.node:Node.get_fully_qualified_name": ("self", ""),
     "rclpy.context:Context.shutdown": EXISTS,
+    "rclpy.context:Context.get_domain_id": ("self", ""),
     "rclpy.publisher:Publisher.publish": ("self msg", ""),
     "rclpy.publisher:Publisher.get_subscription_count": ("self", ""),
     "rclpy.subscription:Subscription.get_publisher_count": ("self", ""),
@@ -202,6 +205,8 @@ def _watch_nodes(monitor: ExecutorMonitor) -> None:
 
     for name in ("__init__", "create_publisher", "create_subscription", "create_client", "create_service"):
         setattr(Node, name, monitor.threads.working(getattr(Node, name)))
+    for name in ("create_publisher", "create_subscription"):
+        setattr(Node, name, _marking(getattr(Node, name)))
     begin, destroy = Node.__init__, Node.destroy_node
 
     def watched_begin(node: Any, *arguments: Any, **options: Any) -> None:
@@ -213,6 +218,18 @@ def _watch_nodes(monitor: ExecutorMonitor) -> None:
         monitor.remove_node(node)
 
     Node.__init__, Node.destroy_node = watched_begin, watched_destroy
+
+
+def _marking(create: Any) -> Any:
+    """Return a function that makes the same endpoint, which says in which domain it is."""
+
+    @functools.wraps(create)
+    def marked(node: Any, *arguments: Any, **options: Any) -> Any:
+        endpoint = create(node, *arguments, **options)
+        other_domains.mark(endpoint, node)
+        return endpoint
+
+    return marked
 
 
 def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
@@ -232,7 +249,8 @@ def _make_subscriptions_reliable(monitor: ExecutorMonitor) -> None:
 
     def lossless_subscription(node: Any, kind: Any, topic: str, profile: Any) -> Any:
         name = rcl.rclpy_resolve_name(node, topic, False, False)
-        if name != CLOCK and monitor.sent_reliably(name, type_name(kind)):
+        apart = any(each.handle is node and other_domains.apart(each) for each in monitor.nodes)
+        if name != CLOCK and not apart and monitor.sent_reliably(name, type_name(kind)):
             profile = _reliable(profile)
         return subscription(node, kind, topic, _unlimited(profile) if simulated else profile)
 

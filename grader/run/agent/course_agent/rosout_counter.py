@@ -1,7 +1,8 @@
 """Counts what the nodes of this process log to /rosout, so that the grader can wait until it has arrived.
 
 rclpy logs in C; the counts are taken where it calls C. A message counts only if a node with a publisher on /rosout
-wrote it: a node may have switched it off, and what is logged after the shutdown goes to the console alone.
+wrote it: a node may have switched it off, may be in another domain, and what is logged after the shutdown goes to the
+console alone.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
+from . import other_domains
 from .executor_monitor import ExecutorMonitor
 
 ROSOUT = "/rosout"
@@ -32,7 +34,9 @@ def watch_logging(monitor: ExecutorMonitor) -> None:
     def noted_make(node: Any, *args: Any, **kwargs: Any) -> None:
         make(node, *args, **kwargs)
         name = (node.get_name(), node.get_namespace())
-        if name in {(e.node_name, e.node_namespace) for e in node.get_publishers_info_by_topic(ROSOUT)}:
+        if not other_domains.apart(node) and name in {
+            (e.node_name, e.node_namespace) for e in node.get_publishers_info_by_topic(ROSOUT)
+        }:
             loggers[node.get_logger().name] = 1
             contexts[node.get_logger().name] = node.context
 
