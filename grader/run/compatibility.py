@@ -6,6 +6,7 @@ no submission can forge its result.
 
 from __future__ import annotations
 
+import platform
 from importlib.metadata import version
 
 from gz_course.grader.errors import InfrastructureError
@@ -17,9 +18,13 @@ RCLPY = "ros-jazzy-rclpy"
 
 def check_compatibility() -> None:
     """Raise InfrastructureError naming the first item of rclpy or Python that is not as the patches expect it."""
+    if missing := misfits(python_3.SUBPROCESS | python_3.ASYNCIO | python_3_threads.THREADS):
+        raise InfrastructureError(
+            f"nodes cannot be kept in step with this Python {platform.python_version()}: {missing[0]}; "
+            "use a Python with which the course was tried: the README names them"
+        )
     installed = version(RCLPY)
-    relied_upon = rclpy_7_1.RELIED_UPON | rclpy_7_1_actions.RELIED_UPON
-    found = misfits(relied_upon) + misfits(python_3.SUBPROCESS | python_3_threads.THREADS)
+    found = misfits(rclpy_7_1.RELIED_UPON | rclpy_7_1_actions.RELIED_UPON)
     if not found and not installed.startswith(f"{rclpy_7_1.VERSION}."):
         found = [f"rclpy has the version {installed}, and {rclpy_7_1.VERSION} is expected"]
     if found:

@@ -1,8 +1,10 @@
 """A library that has changed ends a run in one clear sentence (exit 3), and not in a hang."""
 
+import importlib
 import os
 import subprocess
 import sys
+from functools import reduce
 
 import pytest
 import rclpy.client
@@ -11,7 +13,7 @@ import rclpy.publisher
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.run import compatibility
-from gz_course.grader.run.agent.course_agent import python_3, rclpy_7_1
+from gz_course.grader.run.agent.course_agent import python_3, python_3_threads, rclpy_7_1
 from gz_course.grader.run.agent.course_agent.self_check import misfits
 from gz_course.grader.run.compatibility import check_compatibility
 
@@ -21,7 +23,6 @@ ANOTHER_RCLPY = "import rclpy.executors; del rclpy.executors.Executor._take_clie
 
 def test_what_is_installed_fits():
     check_compatibility()
-    assert misfits(python_3.ASYNCIO) == []
 
 
 @pytest.mark.parametrize("place", sorted(rclpy_7_1.RELIED_UPON))
@@ -52,6 +53,15 @@ def test_an_attribute_that_is_not_used_any_more(monkeypatch):
 def test_another_version(monkeypatch):
     monkeypatch.setattr(compatibility, "version", lambda package: "7.2.0")
     with pytest.raises(InfrastructureError, match=r"rclpy has the version 7\.2\.0, and 7\.1 is expected"):
+        check_compatibility()
+
+
+@pytest.mark.parametrize("place", sorted(python_3.SUBPROCESS | python_3.ASYNCIO | python_3_threads.THREADS))
+def test_another_python(monkeypatch, place):
+    module, _, path = place.partition(":")
+    *owner, name = path.split(".")
+    monkeypatch.delattr(reduce(getattr, owner, importlib.import_module(module)), name)
+    with pytest.raises(InfrastructureError, match=rf"this Python 3\.\d+\.\d+: {module}\.{path} is"):
         check_compatibility()
 
 
