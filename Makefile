@@ -19,7 +19,7 @@ FILTER := ! git rev-parse --git-dir >/dev/null 2>&1 || \
 # Where a student works: chapters and exercises, without solutions and grader. Authors: `make chapters MINE=.`
 MINE ?= my_course
 
-.PHONY: setup chapters my-course update demo test verify prove-exercises prove-long attacks prove-determinism soak bench book fuzz worlds lint clean
+.PHONY: setup chapters my-course update demo test verify prove-exercises prove-long attacks pythons prove-determinism soak bench book fuzz worlds lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -66,7 +66,7 @@ test: .venv/with-tools
 
 verify: .venv/with-tools
 	@$(COMPILE)
-	$(MAKE) --no-print-directory prove-exercises prove-long attacks
+	$(MAKE) --no-print-directory prove-exercises prove-long attacks pythons PYTHONS_OPTIONS=--others
 
 prove-exercises: .venv/with-tools
 	exec $(BIN)/course verify
@@ -75,6 +75,10 @@ prove-long: .venv/with-tools
 	    $(PYTEST_OPTIONS) $(PARALLEL)
 attacks: .venv/with-tools
 	exec $(BIN)/pytest -q tests/hostile $(PYTEST_OPTIONS) $(PARALLEL)
+
+# What is committed, on each Python from 3.11 to 3.14 that this machine has: the suite, or the demo and all solutions.
+pythons: .venv/with-tools
+	exec $(BIN)/python -m gz_course.tests.pythons $(PYTHONS_OPTIONS)
 
 # The same submission, graded often, half of the times on a busy machine: one score, one trajectory.
 GRADINGS ?= 200

@@ -74,11 +74,12 @@ def _run(command: list[str], folder: Path, log: Path) -> int:
 
 
 def _end(child: subprocess.Popen[bytes]) -> None:
-    """End what is left of a group, in the usual order of signals."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-        if child.poll() is not None:
-            break
-        with suppress(ProcessLookupError):
+    """End a command in the usual order of signals, and then whatever is left of its group."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        if child.poll() is None:
             os.killpg(child.pid, number)
-        with suppress(subprocess.TimeoutExpired):
-            child.wait(PATIENCE)
+            with suppress(subprocess.TimeoutExpired):
+                child.wait(PATIENCE)
+    with suppress(ProcessLookupError):
+        os.killpg(child.pid, signal.SIGKILL)
+    child.wait()
