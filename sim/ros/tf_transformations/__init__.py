@@ -7,6 +7,7 @@ Source: https://github.com/DLu/tf_transformations
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import wraps
 from typing import Any
@@ -95,7 +96,6 @@ rotation_from_matrix = _with_arrays(matrices.rotation_from_matrix)
 rotation_matrix = _with_arrays(matrices.rotation_matrix)
 scale_from_matrix = _with_arrays(matrices.scale_from_matrix)
 scale_matrix = _with_arrays(matrices.scale_matrix)
-shear_from_matrix = _with_arrays(matrices.shear_from_matrix)
 shear_matrix = _with_arrays(matrices.shear_matrix)
 translation_from_matrix = _with_arrays(matrices.translation_from_matrix)
 translation_matrix = _with_arrays(matrices.translation_matrix)
@@ -200,6 +200,18 @@ def decompose_matrix(matrix: Any) -> tuple[Any, Any, tuple[float, float, float],
     return size, shear, euler_from_matrix(turn), place, None
 
 
+def shear_from_matrix(matrix: Any) -> tuple[float, Any, Any, Any]:
+    """Return angle, direction, point and normal of a shear. Raises ValueError if the matrix is no shear.
+
+    That of transforms3d 0.4.2 can be wrong by 0.01 rad: it asks for eigenvectors where there are too few.
+    """
+    matrix = np.asarray(matrix, dtype=np.float64)
+    along, sizes, across = np.linalg.svd(matrix[:3, :3] - np.identity(3))
+    if sizes[1] > 1e-8 or abs(sizes[0] * np.dot(along[:, 0], across[0])) > 1e-8:
+        raise ValueError("no two linear independent eigenvectors found")
+    return math.atan(sizes[0]), along[:, 0], _fixed_point(matrix), across[0]
+
+
 def superimposition_matrix(v0: Any, v1: Any, scaling: bool = False, usesvd: bool = True) -> Any:
     """Return the motion that takes vectors (3, n) or (4, n) best to others: the sum of squared distances is least.
 
@@ -242,3 +254,9 @@ def _known(axes: Axes) -> Axes:
     if axes[2] in (axes[1], axes[3]):
         raise ValueError(f"an axis cannot follow itself, as in {axes!r}")
     return axes.lower()
+
+
+def _fixed_point(matrix: Any) -> Any:
+    """Return a point (4,) that a matrix does not move, the one nearest to the origin."""
+    point, *_ = np.linalg.lstsq(np.identity(3) - matrix[:3, :3], matrix[:3, 3], rcond=1e-9)
+    return np.append(point, 1.0)
