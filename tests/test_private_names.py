@@ -28,6 +28,7 @@ FOUND = {
     "_fields_and_field_types": "std_msgs.msg:Empty._fields_and_field_types",
     "_genfunctions": "_pytest.python:PyCollector._genfunctions",
     "_getframe": "sys:_getframe",
+    "_gohlketransforms": "transforms3d._gohlketransforms:Arcball",
     "_queue": "_queue:SimpleQueue",
     "_signal": "_signal:signal",
     "_socket": "_socket:socket",

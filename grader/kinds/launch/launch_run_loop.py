@@ -155,10 +155,10 @@ class LaunchRunLoop(RunLoop):
         seen = len(self._lines)
         for each in self._processes.participants:
             each.tell({"free": True, "real": True})
+        out_of_reach = self._out_of_reach()  # a launch may have ended before the first look at what it leaves
         if was_running:
             self._processes.signal(signal.SIGINT)
         patience = Patience(self._processes.clock, END_PATIENCE)
-        out_of_reach: list[str] = []
         while self._processes.running and not patience.over():
             found = self._out_of_reach()
             if any(each.alive for each in self._processes.participants[:1]):
