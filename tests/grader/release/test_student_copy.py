@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -76,6 +77,8 @@ def test_exercises_chapters_and_programs_are_complete(student, root):
     graders = f"exercises/{NAME}/grading/exercise.toml"
     assert (student / ".grading" / graders).read_bytes() == (root / graders).read_bytes()
     assert not list((student / "exercises").rglob("grading"))
+    excluded = tomllib.loads((student / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert "/.grading/exercises/*/README.md" in excluded["exclude"], "a wheel of the copy has each README once"
     for name in ("LICENSE", "constraints.txt", "pyproject.toml", ".gitignore", "grader/course.py", "sim/gz/command.py"):
         assert (student / name).is_file(), name
     # Whatever the build takes along must be there, or `pip install` fails.
