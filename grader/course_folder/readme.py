@@ -30,7 +30,10 @@ pip install 'gz-ros2-course[chapters]'    # JupyterLab, for the chapters
 
 def readme(exercises: list[Exercise], setup: str, notebooks: list[str]) -> str:
     """Return the text for these exercises and chapters; `setup` is its section on the installation."""
-    rows = [f"| `{e.name}` | {e.title} | {_edited(e)} | {e.max_score:g} |" for e in exercises]
+    rows = [
+        f"| `{e.name}` | [{e.title}](exercises/{e.name}/README.md) | {_edited(e)} | {e.max_score:g} |"
+        for e in exercises
+    ]
     table = "\n".join(["| exercise | task | file you edit | points |", "|---|---|---|---|", *rows])
     text = TEMPLATE.read_text(encoding="utf-8").replace("@SETUP@", setup).replace("@EXERCISES@", table)
     return text.replace("@FIRST@", exercises[0].name).replace("@CHAPTERS@", _chapters(notebooks))
