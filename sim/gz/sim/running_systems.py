@@ -172,6 +172,11 @@ class RunningSystems:
             until = min(until, rests_until(info))
         return max(0, (until - now - 1) // step_ns)
 
+    def in_step(self, info: UpdateInfo) -> None:
+        """Call `in_step` of the systems that act between the two halves of a step."""
+        for hook in self.in_steps:
+            hook(info)
+
     def _clear_forces(self, info: UpdateInfo) -> None:
         self._world.data.xfrc_applied[:] = 0.0
 

@@ -10,6 +10,7 @@ commands give the same bytes.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ from gz_course.sim.gz.sim.physics import integrator, overlaps, welds
 from gz_course.sim.gz.sim.physics.builder import build_spec
 from gz_course.sim.gz.sim.physics.compiler import compile_world
 from gz_course.sim.gz.sim.physics.instability import UNSTABLE, why_unstable
+from gz_course.sim.gz.sim.physics.joint_limits import JointLimits
 from gz_course.sim.gz.sim.physics.state import copy_state
 from gz_course.sim.gz.sim.plugins.system import UpdateInfo
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
@@ -200,6 +202,7 @@ class World:
         self.model, self.data = model, data
         self._warned = data.warning.number  # a view
         self._overlaps = overlaps.Overlaps(model, found)
+        self._limits = JointLimits(model, self.description.models, self.systems.servos)
         self.truth.bind(model, data)
 
     def _compile(
@@ -265,7 +268,7 @@ class World:
         becomes unstable.
         """
         requests, info, systems, truth = self.requests, self._info, self.systems, self.truth
-        advance = mujoco.mj_step
+        in_step = partial(systems.in_step, info)
         done, waiting = 0, requests.waiting
         requests.own()
         while done < n:
@@ -276,6 +279,7 @@ class World:
             model, data, colliding = self.model, self.data, self._overlaps
             pre_updates, in_steps, post_updates = systems.pre_updates, systems.in_steps, systems.post_updates
             samples = systems.samples
+            advance = self._limits.advance if self._limits.active else mujoco.mj_step
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
@@ -299,10 +303,7 @@ class World:
                     for pre_update in pre_updates:
                         pre_update(info)
                     if in_steps:
-                        mujoco.mj_step1(model, data)
-                        for in_step in in_steps:
-                            in_step(info)
-                        mujoco.mj_step2(model, data)
+                        self._limits.advance(model, data, in_step)
                     else:
                         advance(model, data)
                     if colliding.active:

@@ -20,6 +20,7 @@ from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
 from gz_course.sim.gz.sim.physics.contact_pairs import add_pairs
 from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP, SITE_GROUP, VISUAL_GROUP, VISUAL_SUFFIX, Geoms, Wheel
+from gz_course.sim.gz.sim.physics.joint_limits import tell_what_stands
 from gz_course.sim.gz.sim.physics.joints import (
     add_gearbox,
     add_joint,
@@ -270,6 +271,7 @@ class _Builder:
         own = {scoped(model, joint.name) for joint in model.joints}
         built = {name: joint for name, joint in self._tree.built.items() if name in own}
         add_mimics(self._spec, model, built, self._step)
+        tell_what_stands(model, self._servos.get(model.name, []), self._diagnostics)
         for servo in self._servos.get(model.name, []):
             add_servo(self._spec, model, servo, scoped(model, servo.joint))
         touching = [link for link in model.links if link.collisions]

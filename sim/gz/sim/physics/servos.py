@@ -34,6 +34,7 @@ MAX_WHEEL_SPEED = 200.0
 inaccurate.
 """
 
+_NOTHING = 1e-12  # the least limit of an actuator [rad/s, m/s, N m or N]
 _SUFFIX = {WHEEL: "", VELOCITY: "", FORCE: "#force", APPLIED: "#applied"}
 
 
@@ -76,9 +77,19 @@ def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -
         actuator.set_to_motor()
     axis = joint.axis2 if servo.axis else joint.axis
     effort = min(servo.effort, axis.effort if axis is not None else math.inf)
-    if 0.0 < effort < UNLIMITED:
+    velocity = axis.velocity if axis is not None else math.inf
+    if servo.kind in (WHEEL, VELOCITY):  # `joint_limits` keeps the effort of these
+        if velocity < UNLIMITED:
+            actuator.ctrllimited = mujoco.mjtLimited.mjLIMITED_TRUE
+            actuator.ctrlrange = _around_zero(velocity)
+    elif effort < UNLIMITED:
         actuator.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
-        actuator.forcerange = (-effort, effort)
+        actuator.forcerange = _around_zero(effort)
+
+
+def _around_zero(most: float) -> tuple[float, float]:
+    """Return a range that MuJoCo accepts, also for 0."""
+    return -max(most, _NOTHING), max(most, _NOTHING)
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,5 +144,5 @@ def find_drive(mj_model: mujoco.MjModel, model: Model, servo: JointServo) -> Dri
         mj_model.actuator_biasprm[control, 2] = -gain
     joint = model.joint(servo.joint)
     stated = (joint.axis2 if servo.axis else joint.axis) if joint is not None else None
-    fastest = stated.velocity if stated is not None and stated.velocity > 0.0 else math.inf
+    fastest = stated.velocity if stated is not None else math.inf
     return Drive(control, axis, min(fastest, MAX_WHEEL_SPEED if servo.kind == WHEEL else FASTEST))

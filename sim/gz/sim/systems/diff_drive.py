@@ -79,6 +79,7 @@ class DiffDrive(System):
         if both:
             text = f"DiffDrive of model '{scope.full_name}' has joint '{both[0]}' on the left and on the right; "
             world.diagnostics.warn(element.where, f"{text}name another joint in one of them")
+        self._slowest = min((_limit(model, name) for side in self._sides for name in side), default=(math.inf, ""))
         self._odometry = WheelOdometry(separation, radius)
 
     @property
@@ -188,6 +189,14 @@ class DiffDrive(System):
         turn = angular * self._half_separation
         left_speed = (linear - turn) / self._radius
         right_speed = (linear + turn) / self._radius
+        fastest, wheel = self._slowest
+        if max(abs(left_speed), abs(right_speed)) > fastest > 0.0:
+            self._world.diagnostics.warn_once(
+                f"{self.command_topic} {wheel}",
+                "",
+                f"a command on {self.command_topic} asks for {max(abs(left_speed), abs(right_speed)):.3g} rad/s of a "
+                f"wheel, but joint '{wheel}' has the limit velocity {fastest:g} rad/s; the wheels turn no faster",
+            )
         if not (
             -MAX_WHEEL_SPEED <= left_speed <= MAX_WHEEL_SPEED and -MAX_WHEEL_SPEED <= right_speed <= MAX_WHEEL_SPEED
         ):
@@ -222,6 +231,12 @@ def _joints(model: Model, plugin: Plugin, side: str) -> list[str]:
     if not names:
         raise plugin.element.error(f"DiffDrive needs at least one <{side}>, none was found")
     return names
+
+
+def _limit(model: Model, name: str) -> tuple[float, str]:
+    """Return the largest velocity [rad/s] of a wheel's joint, and its name."""
+    joint = model.joint(name)
+    return (math.inf if joint is None or joint.axis is None else joint.axis.velocity), name
 
 
 def _skids(model: Model, side: list[str], radius: float) -> bool:
