@@ -21,6 +21,8 @@ from gz_course.grader.errors import CourseError, UsageError
 from gz_course.grader.process.interruption import end_on
 from gz_course.grader.registry import module_names
 from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.error_text import named
+from gz_course.sim.terminal_text import printable
 
 
 class Commands(TyperGroup):
@@ -73,12 +75,12 @@ def main() -> None:
     except Exception as error:  # a fault of the grader, never the student's
         if debug:
             raise
-        _say(f"internal error: {type(error).__name__}: {error}")
+        _say(f"internal error: {named(error)}")
         sys.exit(3)
 
 
 def _say(sentence: str) -> None:
-    text = f"course: {sentence}".encode(sys.stderr.encoding or "utf-8", "replace")
+    text = f"course: {printable(sentence)}".encode(sys.stderr.encoding or "utf-8", "replace")
     print(text.decode(sys.stderr.encoding or "utf-8"), file=sys.stderr)
 
 

@@ -110,7 +110,11 @@ FORBIDDEN |= {
 }
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {room: (room, *others) for room, others in USES.items()} | {room: (room,) for room in (AGENT, *GRADERS)}
-FOR_ALL = ("sim/child_end", "sim/did_you_mean", "sim/jupyter_proxy", "sim/orphan_watch")  # what every room may import
+# What every room may import.
+FOR_ALL = tuple(
+    f"sim/{name}"
+    for name in ("child_end", "did_you_mean", "error_text", "jupyter_proxy", "orphan_watch", "terminal_text")
+)
 # A module that starts a program and imports how: what the program itself imports is another process.
 PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
 NO_ROS_MESSAGES = ("sim/gz", "grader/feedback", "grader/score", "grader/report", *GRADERS)

@@ -16,6 +16,7 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import exercise_names, find_exercise
 from gz_course.grader.exercise.bundle import write
 from gz_course.grader.exercise.pristine import STARTERS, pristine
+from gz_course.sim.terminal_text import printable
 
 
 def refresh(folder: Path) -> Changes:
@@ -64,7 +65,7 @@ def main() -> int:
     try:
         changes = refresh(folder)
     except UsageError as error:
-        print(error, file=sys.stderr)
+        print(printable(str(error)), file=sys.stderr)
         return 2
     print(*changes.lines, sep="\n", end="\n" if changes.lines else "")
     return 0

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from gz_course.sim import gz
+from gz_course.sim.terminal_text import guard
 
 _DISTRIBUTION = "gz-ros2-course"
 _ENGINES = ("mujoco", "pyzmq", "protobuf")
@@ -74,6 +75,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     unknown command, 109 for an unknown option.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
+    if argv is None:
+        guard()
     commands = find_commands()
     first = arguments[0] if arguments else "--help"
     if first in ("-h", "--help", "help"):

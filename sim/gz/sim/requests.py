@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+from gz_course.sim.error_text import named
 from gz_course.sim.gz.sim.errors import LOG, SimError
 
 PATIENCE_S = 5.0
@@ -136,7 +137,7 @@ def logged(work: Callable[[], Any], about: str) -> Callable[[], bool]:
             LOG.error("%s: %s", about, error)
             return False
         except Exception as error:
-            LOG.error("%s: it failed inside the simulator (%s: %s)", about, type(error).__name__, error)
+            LOG.error("%s: it failed inside the simulator (%s)", about, named(error))
             return False
         return True
 

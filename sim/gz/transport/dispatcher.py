@@ -11,6 +11,7 @@ import select
 import socket
 import threading
 
+from gz_course.sim.error_text import named
 from gz_course.sim.gz.transport import naming
 from gz_course.sim.gz.transport.environment import complain
 from gz_course.sim.gz.transport.inlet import Arrival, Inlet
@@ -73,7 +74,7 @@ class Dispatcher:
             try:
                 self._deliver(arrival)
             except BaseException as error:  # SystemExit in a callback must not stop delivery
-                complain(f"Delivering a message of {arrival.name!r} ended with {type(error).__name__}: {error}")
+                complain(f"Delivering a message of {arrival.name!r} ended with {named(error)}")
 
     def _deliver(self, arrival: Arrival) -> None:
         found = self._described.get((arrival.name, arrival.type_name))

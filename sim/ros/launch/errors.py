@@ -14,6 +14,7 @@ import traceback
 from collections.abc import Iterator
 from contextvars import ContextVar
 
+from gz_course.sim.error_text import named
 from gz_course.sim.ros.launch.ament_prefix import nearest_package_of
 
 _OWN_FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - at every start
@@ -92,7 +93,7 @@ def sentence(error: BaseException) -> str:
     text = str(error.args[0]) if isinstance(error, KeyError) and type(error) is not KeyError else str(error)
     text += nearest_package_of(text)
     if not isinstance(error, LaunchError):
-        text = f"{type(error).__name__}: {text}" if text else type(error).__name__
+        text = f"{type(error).__name__}: {text}" if text else named(error)
     place = _place_in(error)
     return text if place is None or text.startswith(f"{place[0]}:") else f"{place[0]}:{place[1]}: {text}"
 

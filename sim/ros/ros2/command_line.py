@@ -18,11 +18,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.error_text import named
 from gz_course.sim.ros.prefix import local_setup
 from gz_course.sim.ros.ros2 import completion, interruption
 from gz_course.sim.ros.ros2.command_files import COMMANDS, found, load
 from gz_course.sim.ros.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros.ros2.hand_over import hand_over
+from gz_course.sim.terminal_text import guard, printable
 
 _INTERRUPTED = 2
 _GRAPH = "gz_course.sim.ros.ros2.graph"  # imported by verbs that have a node
@@ -35,6 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     is_program = arguments is None
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if is_program and arguments[:1] != ["launch"]:  # which passes on what programs print, with their colours
+        guard()
     local_setup.source(os.environ)
     code = hand_over(arguments)
     if code is not None:
@@ -64,7 +68,7 @@ def _explained(arguments: list[str]) -> int:
         sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
         return run(COMMANDS, "ros2", arguments)
     except CommandError as error:
-        print(error, file=sys.stderr)
+        print(printable(str(error)), file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return _INTERRUPTED
@@ -75,8 +79,7 @@ def _explained(arguments: list[str]) -> int:
     except Exception as error:
         if sys.flags.dev_mode:  # `python -X dev -m gz_course.sim.ros.ros2 …` shows the traceback
             raise
-        sentence = str(error).partition("\n")[0]
-        print(f"ros2: internal error: {type(error).__name__}: {sentence}", file=sys.stderr)
+        print(f"ros2: internal error: {named(error)}", file=sys.stderr)
         return 1
 
 

@@ -7,6 +7,7 @@ import importlib
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.error_text import named
 from gz_course.sim.show.rviz2.canvas import Canvas
 from gz_course.sim.show.rviz2.drawing import drawn_types
 from gz_course.sim.show.rviz2.drawing.fields import plot
@@ -103,7 +104,7 @@ class Subscriber:
                 draw(self._canvas, entity, message)
             except (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
                 # Messages come from anybody: one that makes no sense is passed over.
-                self._canvas.say(f"a message on {topic} cannot be drawn: {type(error).__name__}: {str(error)[:200]}")
+                self._canvas.say(f"a message on {topic} cannot be drawn: {named(error)[:200]}")
             if is_new:
                 self._on_change()
 

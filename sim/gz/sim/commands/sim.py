@@ -22,6 +22,7 @@ import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gz_course.sim.error_text import named
 from gz_course.sim.gz.command_line import Parser, Version, integer, positive_number, whole_number
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ def run(values: argparse.Namespace) -> int:
         return _simulate(values, stop)
     except Exception as error:  # an internal error of the simulator
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
-        sys.stderr.write(f"gz sim: the simulator itself failed ({type(error).__name__}: {error}); -v 4 tells where\n")
+        sys.stderr.write(f"gz sim: the simulator itself failed ({named(error)}); -v 4 tells where\n")
         return 3
 
 

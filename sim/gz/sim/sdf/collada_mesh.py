@@ -74,7 +74,11 @@ def _walk(
 ) -> Iterator[Part]:
     """Yield the geometries below a node; a node without a name inherits that of its parent."""
     left[0] -= 1
-    if depth > _DEEPEST or left[0] < 0:
+    if left[0] < 0 and depth <= _DEEPEST:
+        raise ResourceError(
+            f"{path}: the COLLADA file has more than {_MOST_INSTANCES} instances of nodes and geometries"
+        )
+    if depth > _DEEPEST:
         raise ResourceError(
             f"{path}: the nodes of the COLLADA file are nested too deeply or name each other in a circle"
         )

@@ -97,8 +97,10 @@ class _File:
     ) -> Iterator[tuple[Vertices, Triangles, NDArray[np.float64] | None, tuple[str, ...], Look | None]]:
         """Yield the primitives below a node; a node without a name inherits that of its parent."""
         self._left -= 1
-        if depth > _DEEPEST or self._left < 0:
+        if depth > _DEEPEST:
             raise ResourceError(f"{self._path}: the nodes of the glTF file are nested too deeply or in a circle")
+        if self._left < 0:
+            raise ResourceError(f"{self._path}: the glTF file shows its nodes more than {_MOST_NODES} times in all")
         node = self._json["nodes"][_index(number)]
         name = str(node.get("name") or name)
         below = matrix @ _matrix(node)

@@ -18,6 +18,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.description import Look
 from gz_course.sim.gz.sim.sdf.mesh_parts import MOST_BYTES, Part, Triangles, Vertices
+from gz_course.sim.gz.sim.sdf.special_files import special_kind
 from gz_course.sim.gz.sim.sdf.stl_mesh import read_stl
 
 READABLE = (".stl", ".obj", ".dae", ".gltf", ".glb")
@@ -83,6 +84,8 @@ def read_mesh(path: Path, submesh: str = "", center: bool = False) -> Mesh:
 
 def _bytes_of(path: Path) -> bytes:
     try:
+        if kind := special_kind(path):
+            raise ResourceError(f"{path}: a mesh is a file, but this is {kind}")
         if not path.is_file():
             siblings = [each.name for each in _listed(path.parent) if each.suffix.lower() in READABLE]
             hint = did_you_mean(path.name, siblings, listing="meshes in that folder are")

@@ -23,6 +23,7 @@ from urllib.parse import unquote
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import ResourceError, SdfError
 from gz_course.sim.gz.sim.sdf.element import parse
+from gz_course.sim.gz.sim.sdf.special_files import special_kind
 
 if TYPE_CHECKING:
     import numpy as np
@@ -131,6 +132,9 @@ def find_file(uri: str, relative_to: Path | None) -> Path:
             return candidate
     if _is_fuel(uri):
         raise ResourceError(f"'{uri}' would have to be downloaded, which is not done here; save it beside the world")
+    for candidate in candidates:
+        if kind := special_kind(candidate):
+            raise ResourceError(f"'{uri}' is no file but {kind}: {candidate}")
     rest = uri.rpartition("://")[2].strip("/")
     hint = _path_hint(rest, relative_to) if uri.startswith(("model://", "package://")) else ""
     siblings = {path.name for candidate in candidates for path in _listed(candidate.parent)}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import signal
 import subprocess
@@ -20,6 +21,7 @@ from gz_course.sim.ros.launch.utilities import (
 )
 
 _ON_STDERR = ("fail", "ignore", "warn", "capture")
+_NO_REASON = re.compile(r"(?mi)^((?:\w*error):)[ \t]*$")
 _TRACE = ("Traceback (most recent", "During handling of the above", "The above exception was")
 
 
@@ -67,7 +69,8 @@ class Command(Substitution):
 
 
 def _without_traces(errors: str) -> str:
-    """Return the text without tracebacks, whose lines are not in the launch file."""
+    """Return the text without tracebacks, whose lines are not in the launch file; `error:` alone gets a reason."""
+    errors = _NO_REASON.sub(r"\1 it gives no reason, as a program does that runs out of memory", errors)
     if _TRACE[0] not in errors:
         return errors.strip()
     return "; ".join(line for line in errors.splitlines() if line and not line.startswith((" ", *_TRACE)))

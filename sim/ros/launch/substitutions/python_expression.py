@@ -6,6 +6,7 @@ import importlib
 from collections.abc import Iterable
 from typing import Any
 
+from gz_course.sim.error_text import named
 from gz_course.sim.ros.launch.launch_context import LaunchContext
 from gz_course.sim.ros.launch.some_substitutions_type import SomeSubstitutionsType
 from gz_course.sim.ros.launch.substitution import Substitution
@@ -53,6 +54,4 @@ class PythonExpression(Substitution):
             hint = ""
             if isinstance(error, NameError):
                 hint = "; text needs quotes inside the expression"
-            raise SubstitutionFailure(
-                f"the Python expression {text!r} fails with {type(error).__name__}: {error}{hint}"
-            ) from None
+            raise SubstitutionFailure(f"the Python expression {text!r} fails with {named(error)}{hint}") from None

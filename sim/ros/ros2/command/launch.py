@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.error_text import named
 from gz_course.sim.ros.ros2.errors import CommandError, UsageError
 from gz_course.sim.ros.ros2.packages import package_names
 
@@ -151,7 +152,7 @@ def _sentence(error: Exception) -> str:
     try:
         from gz_course.sim.ros.launch.errors import sentence
     except ImportError:  # a real launch
-        return f"{type(error).__name__}: {error}"
+        return named(error)
     return sentence(error)
 
 

@@ -192,9 +192,23 @@ class Player:
             if not agreed:
                 self._warn(f"Not all original publishers on topic {name} offered the same QoS; the default is offered")
             qos = options.overrides.get(name) or to_offer(profile)
-            self._publishers[name] = self._node.create_publisher(kind, target, qos)
+            self._publishers[name] = self._publisher(kind, name, target, qos)
         if options.clock_hz or options.clock_at.all or options.clock_at.topics:
             self._clock_publisher = self._node.create_publisher(Clock, _CLOCK, 10)
+
+    def _publisher(self, kind: Any, name: str, target: str, qos: Any) -> Any:
+        """Return a publisher for a topic of the bag. Raises BagError for a name that ROS does not allow."""
+        from rclpy.exceptions import InvalidTopicNameException
+
+        try:
+            return self._node.create_publisher(kind, target, qos)
+        except InvalidTopicNameException:
+            remapped = f" (remapped to {target!r})" if target != name else ""
+            raise BagError(
+                f"{self._bag.path}: the topic {name!r}{remapped} has no name that ROS allows: letters, digits and _ in "
+                "parts between single slashes, none of which begins with a digit; leave it out with --exclude-topics, "
+                "or rename it with --remap"
+            ) from None
 
     def _warn(self, sentence: str) -> None:
         self._node.get_logger().warning(sentence)

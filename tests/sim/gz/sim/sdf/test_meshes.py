@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
+import json
+import os
 import struct
 import sys
 from pathlib import Path
@@ -14,6 +16,7 @@ from hypothesis import strategies as st
 
 from gz_course.sim.gz.sim.errors import ResourceError
 from gz_course.sim.gz.sim.sdf.meshes import Mesh, read_mesh
+from gz_course.sim.gz.sim.sdf.resources import find_file
 
 CORNERS = np.array([(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 3)], float)
 TETRAHEDRON = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
@@ -248,3 +251,21 @@ def test_damaged_collada_is_read_or_refused(tmp_path: Path, start: int, length: 
         read_mesh(tmp_path / "a.dae")
     except ResourceError as error:
         assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize(("make", "kind"), [(os.mkfifo, "a FIFO"), (Path.mkdir, "a folder"), (None, "a device")])
+def test_what_is_no_file_is_named_and_never_opened(make, kind, tmp_path):
+    path = tmp_path / "mesh.stl"
+    path.symlink_to("/dev/zero") if make is None else make(path)
+    with pytest.raises(ResourceError, match=f"a mesh is a file, but this is {kind}"):
+        read_mesh(path)
+    with pytest.raises(ResourceError, match=f"'mesh.stl' is no file but {kind}"):
+        find_file("mesh.stl", tmp_path)
+
+
+def test_nodes_that_double_forty_times_are_too_many(tmp_path):
+    nodes = [{"children": [number + 1, number + 1]} for number in range(40)] + [{}]
+    path = tmp_path / "many.gltf"
+    path.write_text(json.dumps({"asset": {"version": "2.0"}, "nodes": nodes, "scenes": [{"nodes": [0]}], "scene": 0}))
+    with pytest.raises(ResourceError, match="shows its nodes more than"):
+        read_mesh(path)
