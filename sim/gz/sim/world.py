@@ -93,7 +93,7 @@ class World:
             self.systems.add(model)
         self._told: set[frozenset[str]] = set()
         self._build()
-        self.systems.bind()
+        self._bind()
         self.systems.start()
         self.systems.check_world()
         for model in description.models:
@@ -202,7 +202,7 @@ class World:
         self.model, self.data = model, data
         self._warned = data.warning.number  # a view
         self._overlaps = overlaps.Overlaps(model, found)
-        self._limits = JointLimits(model, self.description.models, self.systems.servos)
+        self._limits = JointLimits(model, data, self.description.models, self.systems.servos)
         self.truth.bind(model, data)
 
     def _compile(
@@ -225,7 +225,12 @@ class World:
     def rebuild(self) -> None:
         """Rebuild MuJoCo's model from the changed description; the state of unchanged entities is kept exactly."""
         self._build((self.model, self.data))
+        self._bind()
+
+    def _bind(self) -> None:
+        """Connect the systems with the new model, and the limits of joints with the gains that the systems set."""
         self.systems.bind()
+        self._limits.bind(self.model)
 
     def part_overlaps(self) -> None:
         """Let bodies that were just moved into each other come apart slowly; nothing else changes."""
@@ -358,7 +363,7 @@ class World:
         self.truth.models = {model.name: model for model in now}
         if changed:
             self._build()
-            self.systems.bind()
+            self._bind()
             self.systems.connect_new()
         else:
             self._overlaps.restart()

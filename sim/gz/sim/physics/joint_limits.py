@@ -10,6 +10,7 @@ Source: http://sdformat.org/spec?elem=joint (axis/limit: effort, velocity)
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -21,18 +22,26 @@ from gz_course.sim.gz.sim.physics.joint_axis import find_axes
 from gz_course.sim.gz.sim.physics.servos import VELOCITY, WHEEL, JointServo
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model
 
-_STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 _TOLERANCE = 1e-6  # relative, of an effort or a velocity
 _MOST_SOLUTIONS = 4  # of one step: servos that give way load others
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Servo:
-    """A velocity servo: its actuator, the degree of freedom that it moves, and its largest force [N m or N]."""
+    """A velocity servo: its actuator, the degree of freedom that it moves, its largest force [N m or N] and command
+    [rad/s or m/s], and its gain.
+    """
 
     actuator: int
     dof: int
     effort: float
+    fastest: float
+    gain: float = 0.0
+
+    def force(self, control: float, speed: float) -> float:
+        """Return the force of a step that ended with a speed; it was implicit in the speed."""
+        wanted = min(max(control, -self.fastest), self.fastest)
+        return self.gain * (wanted - speed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,17 +57,25 @@ class JointLimits:
     """The limits of all joints of one compiled model; `advance` steps it."""
 
     def __init__(
-        self, model: mujoco.MjModel, models: Iterable[Model], servos: Mapping[str, Sequence[JointServo]]
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        models: Iterable[Model],
+        servos: Mapping[str, Sequence[JointServo]],
     ) -> None:
         """Find the joints with limits. `servos` are those of the systems, by model."""
         self._servos: list[_Servo] = []
+        self._strong: list[tuple[int, int, float]] = []  # actuator, dof, and the error that takes the whole effort
         self._speeds: list[_Speed] = []
         for owner in models:
             for joint in owner.joints:
                 self._find_speeds(model, owner, joint)
             for servo in servos.get(owner.name, ()):
                 self._find_servo(model, owner, servo)
-        self._before = np.empty(mujoco.mj_stateSize(model, _STATE))
+        # Views, because making one takes as long as using it.
+        self._qpos, self._qvel, self._warm = data.qpos, data.qvel, data.qacc_warmstart
+        self._state = [(view, view.copy()) for view in (self._qpos, self._qvel, self._warm)]
+        self._ctrl = data.ctrl
         self._impulse, self._change = np.zeros((1, model.nv)), np.zeros((1, model.nv))
 
     @property
@@ -66,48 +83,67 @@ class JointLimits:
         """Whether a step takes more than MuJoCo's own."""
         return bool(self._servos or self._speeds)
 
+    def bind(self, model: mujoco.MjModel) -> None:
+        """Read the gains, which systems set when they are bound."""
+        for servo in self._servos:
+            servo.gain = model.actuator_gainprm.item(servo.actuator, 0)
+        self._strong = [(each.actuator, each.dof, each.effort / max(each.gain, 1e-300)) for each in self._servos]
+
     def advance(self, model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None] | None = None) -> None:
         """Step a model; `between` is called between the two halves of the step, perhaps more than once."""
-        if self._servos:
-            mujoco.mj_getState(model, data, self._before, _STATE)
-        _step(model, data, between)
-        if self._servos:
-            self._give_way(model, data, between)
-        for each in self._speeds:
-            self._slow_down(model, data, each)
+        if self._strong:
+            for view, kept in self._state:
+                kept[:] = view
+        if between is None:
+            mujoco.mj_step(model, data)
+        else:
+            _step_in_halves(model, data, between)
+        qvel, ctrl = self._qvel.item, self._ctrl.item
+        for actuator, dof, error in self._strong:
+            if not -error <= ctrl(actuator) - qvel(dof) <= error:
+                self._give_way(model, data, between)
+                break
+        for limit in self._speeds:
+            if not -limit.most <= qvel(limit.dof) <= limit.most:
+                self._slow_down(model, data, limit)
 
     def _give_way(self, model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None] | None) -> None:
         """Repeat the step with the largest force of each servo that would have needed more."""
-        saturated: dict[int, tuple[float, float, float]] = {}
+        begin = data.time - model.opt.timestep
+        saturated: dict[int, _Servo] = {}
         for _ in range(_MOST_SOLUTIONS):
-            found = {
-                servo.actuator: float(np.copysign(servo.effort, force))
-                for servo in self._servos
-                if servo.actuator not in saturated
-                and abs(force := _force(model, data, servo)) > servo.effort * (1.0 + _TOLERANCE)
-            }
+            found = False
+            for servo in self._servos:
+                force = servo.force(self._ctrl.item(servo.actuator), self._qvel.item(servo.dof))
+                if servo.actuator in saturated or abs(force) <= servo.effort * (1.0 + _TOLERANCE):
+                    continue
+                saturated[servo.actuator] = servo
+                bias = model.actuator_biasprm[servo.actuator]
+                model.actuator_gainprm[servo.actuator, 0], bias[2] = 0.0, 0.0
+                bias[0], found = math.copysign(servo.effort, force), True
             if not found:
                 break
-            for actuator, force in found.items():
-                gain, bias = model.actuator_gainprm[actuator], model.actuator_biasprm[actuator]
-                saturated[actuator] = float(gain[0]), float(bias[0]), float(bias[2])
-                gain[0], bias[0], bias[2] = 0.0, force, 0.0
-            mujoco.mj_setState(model, data, self._before, _STATE)
-            _step(model, data, between)
-        for actuator, (gain0, bias0, bias2) in saturated.items():
-            model.actuator_gainprm[actuator, 0] = gain0
-            model.actuator_biasprm[actuator, 0], model.actuator_biasprm[actuator, 2] = bias0, bias2
+            for view, kept in self._state:
+                np.copyto(view, kept)
+            data.time = begin
+            if between is None:
+                mujoco.mj_step(model, data)
+            else:
+                _step_in_halves(model, data, between)
+        for actuator, servo in saturated.items():
+            model.actuator_gainprm[actuator, 0] = servo.gain
+            model.actuator_biasprm[actuator, 0], model.actuator_biasprm[actuator, 2] = 0.0, -servo.gain
 
     def _slow_down(self, model: mujoco.MjModel, data: mujoco.MjData, limit: _Speed) -> None:
-        speed = data.qvel.item(limit.dof)
+        speed = self._qvel.item(limit.dof)
         if abs(speed) <= limit.most * (1.0 + _TOLERANCE):
             return
-        excess = speed - float(np.copysign(limit.most, speed))
+        excess = speed - math.copysign(limit.most, speed)
         self._impulse[0, limit.dof] = 1.0
         mujoco.mj_solveM(model, data, self._change, self._impulse)
         self._impulse[0, limit.dof] = 0.0
-        data.qvel -= self._change[0] * (excess / self._change.item(limit.dof))
-        data.qpos[limit.position] -= excess * model.opt.timestep
+        self._qvel -= self._change[0] * (excess / self._change.item(limit.dof))
+        self._qpos[limit.position] -= excess * model.opt.timestep
 
     def _find_speeds(self, model: mujoco.MjModel, owner: Model, joint: Joint) -> None:
         found = find_axes(model, f"{owner.name}::{joint.name}")
@@ -122,7 +158,7 @@ class JointLimits:
         axes = find_axes(model, f"{owner.name}::{servo.joint}")
         actuator = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, f"{owner.name}::{servo.actuator}")
         if actuator >= 0 and servo.axis < len(axes):
-            self._servos.append(_Servo(int(actuator), axes[servo.axis].velocity, effort))
+            self._servos.append(_Servo(int(actuator), axes[servo.axis].velocity, effort, axis.velocity))
 
 
 def stated_axis(model: Model, servo: JointServo) -> Axis | None:
@@ -152,19 +188,7 @@ def tell_what_stands(model: Model, servos: Iterable[JointServo], diagnostics: Di
                 )
 
 
-def _step(model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None] | None) -> None:
-    if between is None:
-        mujoco.mj_step(model, data)
-        return
+def _step_in_halves(model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None]) -> None:
     mujoco.mj_step1(model, data)
     between()
     mujoco.mj_step2(model, data)
-
-
-def _force(model: mujoco.MjModel, data: mujoco.MjData, servo: _Servo) -> float:
-    """Return the force of a servo in the last step, which was implicit in the velocity."""
-    wanted = data.ctrl.item(servo.actuator)
-    if model.actuator_ctrllimited[servo.actuator]:
-        lower, upper = model.actuator_ctrlrange[servo.actuator].tolist()
-        wanted = min(max(wanted, lower), upper)
-    return model.actuator_gainprm.item(servo.actuator, 0) * (wanted - data.qvel.item(servo.dof))
