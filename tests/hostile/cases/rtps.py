@@ -1,5 +1,5 @@
 # Put before the text of an attack that says `uses_rtps` in its expected.toml: RTPS as datagrams, in anybody's name.
-# Source: DDSI-RTPS 2.2, 9.4.5.3 and 9.6.1.
+# Source: DDSI-RTPS 2.2, 9.3.1.2, 9.4.5, 9.6.1 and 9.6.3.
 import os
 import socket
 import struct
@@ -13,18 +13,48 @@ def data_message(writer, number, payload):
     now = time.time()
     stamp = struct.pack("<BBHII", 0x09, 0x01, 8, int(now), int(now % 1 * 2**32))
     body = struct.pack("<HH", 0, 16) + bytes(4) + writer[12:16] + struct.pack("<iI", 0, number) + payload
-    header = b"RTPS" + bytes((2, 2, 1, 15)) + writer[:12]
-    return header + stamp + struct.pack("<BBH", 0x15, 0x05, len(body)) + body
+    return header(writer) + stamp + struct.pack("<BBH", 0x15, 0x05, len(body)) + body
 
 
-def send_to_all(message):
-    """Send a datagram to every participant of the domain."""
+def header(sender):
+    """The header of a message of the participant that an endpoint, with this GUID, belongs to."""
+    return b"RTPS" + bytes((2, 2, 1, 15)) + sender[:12]
+
+
+def heartbeat(writer, first, count):
+    """A message in the name of a writer: all before the number `first` is gone, and nothing has come since."""
+    body = bytes(4) + writer[12:16] + struct.pack("<iIiII", 0, first, 0, first - 1, count)
+    return header(writer) + struct.pack("<BBH", 0x07, 0x01, len(body)) + body
+
+
+def acknowledgement(reader, writer, base, count):
+    """A message in the name of a reader: it has got all before the number `base` from a writer."""
+    body = reader[12:16] + writer[12:16] + struct.pack("<iIII", 0, base, 0, count)
+    return header(reader) + struct.pack("<BBH", 0x06, 0x03, len(body)) + body
+
+
+def farewell(endpoint, number):
+    """A message in the name of the participant of an endpoint: it has gone, with all its endpoints."""
+    key = endpoint[:12] + bytes((0, 0, 1, 0xC1))
+    parameters = struct.pack("<HH", 0x70, 16) + key + struct.pack("<HH", 0x71, 4) + bytes((0, 0, 0, 3))
+    body = struct.pack("<HH", 0, 16) + bytes(4) + bytes((0, 1, 0, 0xC2)) + struct.pack("<iI", 0, number)
+    body += parameters + struct.pack("<HH", 1, 0)
+    return header(endpoint) + struct.pack("<BBH", 0x15, 0x03, len(body)) + body
+
+
+def send_to_all(message, discovery=False):
+    """Send a datagram to every participant of the domain, on wish to its discovery."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as some:
         for participant in range(PARTICIPANTS):
-            port = 7400 + 250 * int(os.environ["ROS_DOMAIN_ID"]) + 11 + 2 * participant
+            port = 7400 + 250 * int(os.environ["ROS_DOMAIN_ID"]) + (10 if discovery else 11) + 2 * participant
             some.sendto(message, ("127.0.0.1", port))
 
 
 def writer_of(node, topic):
     """The GUID of a publisher on a topic, None if there is none."""
     return next((bytes(info.endpoint_gid[:16]) for info in node.get_publishers_info_by_topic(topic)), None)
+
+
+def reader_of(node, topic):
+    """The GUID of a subscription to a topic, None if there is none."""
+    return next((bytes(info.endpoint_gid[:16]) for info in node.get_subscriptions_info_by_topic(topic)), None)
