@@ -6,7 +6,7 @@ import ast
 from collections.abc import Callable, Iterator, Mapping
 from math import ceil, floor, log
 
-from gz_course.grader.feedback.facts.syntax import walk
+from gz_course.grader.feedback.facts.syntax import kept, unparse, walk
 
 Number = int | float
 OPERATIONS = {
@@ -26,6 +26,7 @@ LOGARITHMS = ("log", "math.log", "np.log", "numpy.log")
 LARGEST = 1e18  # no product of names is computed beyond
 
 
+@kept
 def named_numbers(tree: ast.AST) -> dict[str, Number]:
     """Return the value of each name and attribute that is assigned one number, always the same, and nothing else."""
     found: dict[str, Number] = {}
@@ -33,7 +34,7 @@ def named_numbers(tree: ast.AST) -> dict[str, Number]:
     for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target, given in _pairs(node):
-                value, name = number(given, found), ast.unparse(target)
+                value, name = number(given, found), unparse(target)
                 if value is None or found.get(name, value) != value:
                     others.add(name)
                 else:
@@ -41,9 +42,9 @@ def named_numbers(tree: ast.AST) -> dict[str, Number]:
         elif isinstance(node, ast.AugAssign | ast.AnnAssign | ast.For | ast.NamedExpr):
             value = number(node.value, found) if isinstance(node, ast.AnnAssign) and node.value is not None else None
             if value is None:
-                others.add(ast.unparse(node.target))
+                others.add(unparse(node.target))
             else:
-                found[ast.unparse(node.target)] = value
+                found[unparse(node.target)] = value
         elif isinstance(node, ast.arg):
             others.add(node.arg)
     return {name: value for name, value in found.items() if name not in others}
@@ -78,13 +79,13 @@ def number(node: ast.AST | None, names: Mapping[str, Number]) -> Number | None:
             return result if abs(result) <= LARGEST else None
         case ast.BinOp(left=ast.Constant(value=10), op=ast.Pow(), right=ast.Constant(value=int(power))) if power <= 18:
             return 10**power if power >= 0 else 10.0**power
-        case ast.Call(func=func, args=[inner_node], keywords=[]) if ast.unparse(func) in ROUNDINGS:
+        case ast.Call(func=func, args=[inner_node], keywords=[]) if unparse(func) in ROUNDINGS:
             value = number(inner_node, names)
-            return None if value is None else ROUNDINGS[ast.unparse(func)](value)
-        case ast.Call(func=func, args=[inner_node], keywords=[]) if ast.unparse(func) in LOGARITHMS:
+            return None if value is None else ROUNDINGS[unparse(func)](value)
+        case ast.Call(func=func, args=[inner_node], keywords=[]) if unparse(func) in LOGARITHMS:
             value = number(inner_node, names)
             return None if value is None or value <= 0 else log(value)
         case ast.Name() | ast.Attribute():
-            name = ast.unparse(node)
+            name = unparse(node)
             return names.get(name, names.get(name.rpartition(".")[2]) if name.count(".") == 1 else None)
     return None

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Places, assigned, functions, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Places, assigned, functions, nodes_of, places_in, unparse
 
 MOST = 3  # counters reported at most
 
@@ -27,23 +27,23 @@ def counters(content: bytes) -> Places:
 def _counters(tree: ast.Module) -> Iterator[dict[str, Any]]:
     numbers = named_numbers(tree)
     from_zero = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
         if isinstance(value, ast.Constant) and value.value == 0 and not isinstance(value.value, bool)
     }
     for function in functions(tree):
-        for added in (node for node in walk(function) if isinstance(node, ast.AugAssign | ast.Assign)):
+        for added in nodes_of(function, ast.AugAssign, ast.Assign):
             counter = _increased(added)
             if counter.removeprefix("self.") not in from_zero and counter not in from_zero:
                 continue
-            for test in walk(function):
-                if not isinstance(test, ast.Compare) or len(test.ops) != 1 or test.lineno >= added.lineno:
+            for test in nodes_of(function, ast.Compare):
+                if len(test.ops) != 1 or test.lineno >= added.lineno:
                     continue
                 limit = number(test.comparators[0], numbers)
-                if ast.unparse(test.left) == counter and limit is not None:
+                if unparse(test.left) == counter and limit is not None:
                     yield {
                         "line": test.lineno,
-                        "code": ast.unparse(test)[:80],
+                        "code": unparse(test)[:80],
                         "counter": counter,
                         "limit": float(limit),
                         "added": added.lineno,
@@ -52,11 +52,11 @@ def _counters(tree: ast.Module) -> Iterator[dict[str, Any]]:
 
 def _increased(node: ast.AugAssign | ast.Assign) -> str:
     """Return the counter to which a statement adds 1; empty if it is another statement."""
-    target = ast.unparse(node.target if isinstance(node, ast.AugAssign) else node.targets[0])
+    target = unparse(node.target if isinstance(node, ast.AugAssign) else node.targets[0])
     if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
         step = node.value
     elif isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.Add):
-        step = node.value.right if ast.unparse(node.value.left) == target else node.value
+        step = node.value.right if unparse(node.value.left) == target else node.value
     else:
         return ""
     return target if isinstance(step, ast.Constant) and step.value == 1 else ""

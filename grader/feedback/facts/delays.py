@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Places, calls, left_early, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Places, calls, left_early, nodes_of, places_in, unparse, walk
 
 MOST = 4  # delays of a file; with more, nobody knows which of them count
 SLEEPS = frozenset({"sleep"})
@@ -28,16 +28,12 @@ def _delays(tree: ast.Module) -> Places:
     numbers = named_numbers(tree)
     rounds = {
         id(inner): times
-        for loop in walk(tree)
-        if isinstance(loop, ast.For) and (times := _rounds(loop, numbers))
+        for loop in nodes_of(tree, ast.For)
+        if (times := _rounds(loop, numbers))
         for inner in walk(loop)
     }
     loops = {
-        id(inner)
-        for loop in walk(tree)
-        if isinstance(loop, ast.While | ast.For)
-        for inner in walk(loop)
-        if id(inner) not in rounds
+        id(inner) for loop in nodes_of(tree, ast.While, ast.For) for inner in walk(loop) if id(inner) not in rounds
     }
     found: list[dict[str, Any]] = []
     for call, name in calls(tree):
@@ -55,7 +51,7 @@ def _delays(tree: ast.Module) -> Places:
 
 def _rounds(loop: ast.For, numbers: Mapping[str, Number]) -> int:
     """Return how often a `for ... in range(N)` runs; 0 for other loops, and for one that may be left."""
-    counted = loop.iter if isinstance(loop.iter, ast.Call) and ast.unparse(loop.iter.func) == "range" else None
+    counted = loop.iter if isinstance(loop.iter, ast.Call) and unparse(loop.iter.func) == "range" else None
     times = number(counted.args[0], numbers) if counted is not None and len(counted.args) == 1 else None
     left = left_early(loop)
     return int(times) if times and not left else 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Places, calls, functions, last_name, places_in
+from gz_course.grader.feedback.facts.syntax import Places, calls, children, functions, last_name, places_in
 
 MOST = 2  # calls reported at most
 WAITS = frozenset({"spin", "spin_once", "spin_until_future_complete", "sleep", "sleep_for", "wait", "wait_for_service"})
@@ -63,6 +63,6 @@ def _own_calls(block: Block) -> list[tuple[ast.Call, str]]:
             continue
         if isinstance(node, ast.Call):
             found.append(node)
-        todo += ast.iter_child_nodes(node)
+        todo += children(node)
     ordered = sorted(found, key=lambda call: (call.lineno, call.col_offset))
     return [(call, last_name(call.func)) for call in ordered]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, Places, last_name, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Place, Places, last_name, nodes_of, places_in, unparse, walk
 from gz_course.grader.feedback.slips.language.sequences import LEVELS
 
 # Options of the methods of a logger.
@@ -26,11 +26,11 @@ def seldom_log(content: bytes) -> Places:
 
 
 def _seldom(tree: ast.Module) -> Iterator[Place]:
-    for node in walk(tree):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in LEVELS:
+    for node in nodes_of(tree, ast.Call):
+        if isinstance(node.func, ast.Attribute) and node.func.attr in LEVELS:
             for option in node.keywords:
-                if option.arg in FILTERS and ast.unparse(option.value) not in ("False", "0", "0.0", "None"):
-                    value = ast.unparse(option.value)
+                if option.arg in FILTERS and unparse(option.value) not in ("False", "0", "0.0", "None"):
+                    value = unparse(option.value)
                     yield option.lineno, f"{option.arg}={value} {FILTERS[option.arg].format(value=value)}"
 
 
@@ -41,11 +41,9 @@ def silent_log(content: bytes) -> Places:
 
 def _silent(tree: ast.Module) -> Iterator[Place]:
     calls = [
-        node
-        for node in walk(tree)
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in LEVELS
+        node for node in nodes_of(tree, ast.Call) if isinstance(node.func, ast.Attribute) and node.func.attr in LEVELS
     ]
-    names = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
+    names = {node.attr for node in nodes_of(tree, ast.Attribute)}
     imported = any(
         isinstance(node, ast.Import) and any(each.name == "logging" for each in node.names) for node in walk(tree)
     )

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import functions, walk
+from gz_course.grader.feedback.facts.syntax import functions, unparse, walk
 from gz_course.grader.feedback.slips.language.sequences import assigned
 
 FLOAT32 = frozenset({"ranges", "intensities"})  # fields that are arrays of float32
@@ -34,7 +34,7 @@ def numpy_numbers(tree: ast.Module) -> Iterator[dict[str, Any]]:
             known |= more
         for line, field, value in _sent(function):
             if _float32(value, known):
-                yield {"line": line, "field": field, "value": ast.unparse(value), "type": "np.float32"}
+                yield {"line": line, "field": field, "value": unparse(value), "type": "np.float32"}
 
 
 def _sent(function: ast.FunctionDef) -> Iterator[tuple[int, str, ast.expr]]:
@@ -42,9 +42,9 @@ def _sent(function: ast.FunctionDef) -> Iterator[tuple[int, str, ast.expr]]:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
             target = node.targets[0]
             if target.attr in VALUES and not (isinstance(target.value, ast.Name) and target.value.id == "self"):
-                yield node.lineno, ast.unparse(target), node.value
+                yield node.lineno, unparse(target), node.value
         elif isinstance(node, ast.Call):
-            owner = ast.unparse(node.func).rpartition(".")[2]
+            owner = unparse(node.func).rpartition(".")[2]
             yield from ((node.lineno, f"{owner}.data", each.value) for each in node.keywords if each.arg == "data")
 
 
@@ -59,18 +59,18 @@ def _float32(node: ast.expr, known: set[str]) -> bool:
             name = function.attr
             if name in AS_PYTHON or name.startswith("arg") or name in ("where", "nonzero", "count_nonzero", "size"):
                 return False
-            kind = next((ast.unparse(each.value) for each in node.keywords if each.arg == "dtype"), "")
-            kind = kind or (ast.unparse(node.args[1]) if name in ("array", "asarray") and len(node.args) > 1 else "")
+            kind = next((unparse(each.value) for each in node.keywords if each.arg == "dtype"), "")
+            kind = kind or (unparse(node.args[1]) if name in ("array", "asarray") and len(node.args) > 1 else "")
             if kind or name == "astype":
-                return "float32" in kind + "".join(map(ast.unparse, node.args))
+                return "float32" in kind + "".join(map(unparse, node.args))
             if name == "float32":
-                return ast.unparse(function.value) in NUMPY
+                return unparse(function.value) in NUMPY
             if name in ("array", "asarray"):
                 given = node.args[0] if node.args else None
                 field = isinstance(given, ast.Attribute) and given.attr in FLOAT32
                 return field or (given is not None and _float32(given, known))
             if name in OF_AN_ARRAY:
-                owner = ast.unparse(function.value)
+                owner = unparse(function.value)
                 return (
                     _float32(node.args[0], known) if owner in NUMPY and node.args else _float32(function.value, known)
                 )

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from gz_course.grader.feedback.facts.syntax import Places, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Places, kept, nodes_of, parents, places_in, unparse, walk
 
 SENDS = frozenset({"publish", "publish_feedback", "sendTransform"})
 LOGS = frozenset({"debug", "info", "warn", "warning", "error"})
@@ -29,7 +29,7 @@ def origins(content: bytes) -> Places:
 
     Without a publisher, what is logged counts.
     """
-    return places_in(content, lambda tree: _origins(_Program(tree)))
+    return places_in(content, lambda tree: _origins(_program(tree)))
 
 
 def conditions(content: bytes) -> Places:
@@ -38,17 +38,17 @@ def conditions(content: bytes) -> Places:
     Each place has `line` and `code`, such as `if not hits: return`; `sends` is the line of the publish() and `topic`
     where it publishes, which is empty if that is no constant of the file.
     """
-    return places_in(content, lambda tree: _conditions(_Program(tree)))
+    return places_in(content, lambda tree: _conditions(_program(tree)))
 
 
 def before_speeds(content: bytes) -> Places:
     """Return `line` and `code` of the conditions that stand before a linear.x is set to what is no constant."""
-    return places_in(content, lambda tree: _before_speeds(_Program(tree)))
+    return places_in(content, lambda tree: _before_speeds(_program(tree)))
 
 
 def of_the_drive(content: bytes) -> Places:
     """Return `line` and `code` of the conditions on which a linear.x other than 0 is sent; a start is none of them."""
-    return places_in(content, lambda tree: _of_the_drive(_Program(tree)))
+    return places_in(content, lambda tree: _of_the_drive(_program(tree)))
 
 
 @dataclass
@@ -58,14 +58,12 @@ class _Program:
     tree: ast.Module
     functions: dict[str, Function] = field(default_factory=dict)
     owner: dict[ast.AST, Function] = field(default_factory=dict)
-    parent: dict[ast.AST, ast.AST] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for node in walk(self.tree):
-            for child in ast.iter_child_nodes(node):
-                self.parent[child] = node
             if isinstance(node, Function):
                 self.functions[node.name] = node
+        self.parent = parents(self.tree)
         for node in self.parent:
             above = self.parent.get(node)
             while above is not None and not isinstance(above, Function):
@@ -87,7 +85,7 @@ class _Program:
 
     def read(self, node: ast.AST) -> set[Name]:
         """Return the variables that an expression reads, those of the module also."""
-        parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+        parts = [each for each in nodes_of(node, ast.Name, ast.Attribute)]
         found = {name for part in parts if (name := self.name(part)) is not None}
         return found | {(0, word) for _, word in found}
 
@@ -112,11 +110,16 @@ class _Program:
 
     def handed_over(self) -> Iterator[tuple[ast.AST, set[Name], ast.AST]]:
         """Yield each argument of a call of the file's functions, with the parameter that it becomes."""
-        for call in (node for node in walk(self.tree) if isinstance(node, ast.Call)):
-            function = self.functions.get(ast.unparse(call.func).rpartition(".")[2])
+        for call in nodes_of(self.tree, ast.Call):
+            function = self.functions.get(unparse(call.func).rpartition(".")[2])
             names = [each.arg for each in function.args.args if each.arg != "self"] if function is not None else []
             given = [*zip(names, call.args, strict=False), *((each.arg, each.value) for each in call.keywords)]
             yield from ((call, {(id(function), name)}, value) for name, value in given if name in names)
+
+
+@kept
+def _program(tree: ast.Module) -> _Program:
+    return _Program(tree)
 
 
 def _parts(target: ast.expr) -> Iterator[ast.expr]:
@@ -130,14 +133,14 @@ def _parts(target: ast.expr) -> Iterator[ast.expr]:
 
 def _sinks(program: _Program) -> list[ast.Call]:
     """Return the calls that publish; if there are none, those that log."""
-    calls = [node for node in walk(program.tree) if isinstance(node, ast.Call)]
+    calls = [node for node in nodes_of(program.tree, ast.Call)]
     sends = [call for call in calls if isinstance(call.func, ast.Attribute) and call.func.attr in SENDS and call.args]
     if sends:
         return sends
     return [
         call
         for call in calls
-        if isinstance(call.func, ast.Attribute) and call.func.attr in LOGS and "log" in ast.unparse(call.func.value)
+        if isinstance(call.func, ast.Attribute) and call.func.attr in LOGS and "log" in unparse(call.func.value)
     ]
 
 
@@ -154,10 +157,10 @@ def _origins(program: _Program) -> Places:
             continue
         seen[id(node)] = node
         wanted |= program.read(node)
-        for call in (each for each in walk(node) if isinstance(each, ast.Call)):
-            function = program.functions.get(ast.unparse(call.func).rpartition(".")[2])
+        for call in nodes_of(node, ast.Call):
+            function = program.functions.get(unparse(call.func).rpartition(".")[2])
             if function is not None:
-                returns = [each for each in walk(function) if isinstance(each, ast.Return)]
+                returns = [each for each in nodes_of(function, ast.Return)]
                 todo += [each.value for each in returns if each.value is not None]
         for statement, names, value in (*changes, *handed_over):
             if names & wanted and id(value) not in seen:
@@ -183,7 +186,7 @@ def _tells(program: _Program, node: ast.AST) -> bool:
         if isinstance(each, ast.Subscript) and isinstance(each.slice, ast.Constant):
             return True
         if isinstance(each, ast.Call) and each.args:
-            name = ast.unparse(each.func).rpartition(".")[2]
+            name = unparse(each.func).rpartition(".")[2]
             own = name in PLAIN or name in program.functions or name.startswith("create_")
             if name[:1].islower() and not own:
                 return True
@@ -195,7 +198,7 @@ def _line(program: _Program, node: ast.AST) -> str:
     above: ast.AST | None = node
     while above is not None and not isinstance(above, ast.stmt):
         above = program.parent.get(above)
-    return _short(ast.unparse(above if above is not None else node).splitlines()[0])
+    return _short(unparse(above if above is not None else node).splitlines()[0])
 
 
 def _short(code: str) -> str:
@@ -212,7 +215,7 @@ def _tests(program: _Program, node: ast.AST) -> Iterator[tuple[ast.expr, str]]:
             if isinstance(block, list) and node in block:
                 for before in reversed(block[: block.index(node)]):
                     if isinstance(before, ast.If) and not before.orelse and isinstance(before.body[-1], LEAVES):
-                        yield before.test, f"if {{}}: {ast.unparse(before.body[-1])}"
+                        yield before.test, f"if {{}}: {unparse(before.body[-1])}"
         node = above
 
 
@@ -222,9 +225,9 @@ def _conditions(program: _Program) -> Places:
     for call in _sinks(program)[:MOST_SENDS]:
         function = program.owner.get(call)
         before = [call, *(callers.get(function.name, []) if function is not None else [])]
-        publisher = ast.unparse(call.func.value) if isinstance(call.func, ast.Attribute) else ""
+        publisher = unparse(call.func.value) if isinstance(call.func, ast.Attribute) else ""
         for test, form in [pair for place in before for pair in _tests(program, place)][:MOST_SENDS]:
-            code = ast.unparse(test)
+            code = unparse(test)
             if "__name__" not in code and "rclpy.ok" not in code:
                 said = {"line": test.lineno, "code": _short(form.format(code))}
                 places[call.lineno, test.lineno] = said | {"sends": call.lineno, "topic": topics.get(publisher, "")}
@@ -233,12 +236,12 @@ def _conditions(program: _Program) -> Places:
 
 def _of_the_drive(program: _Program) -> Places:
     found = {}
-    for node in walk(program.tree):
-        if not isinstance(node, ast.Assign) or (isinstance(node.value, ast.Constant) and node.value.value == 0):
+    for node in nodes_of(program.tree, ast.Assign):
+        if isinstance(node.value, ast.Constant) and node.value.value == 0:
             continue
-        if any(ast.unparse(target).endswith("linear.x") for target in node.targets):
+        if any(unparse(target).endswith("linear.x") for target in node.targets):
             for test, form in _tests(program, node):
-                code = ast.unparse(test)
+                code = unparse(test)
                 if "is None" not in code and "__name__" not in code:
                     found[test.lineno] = {"line": test.lineno, "code": _short(form.format(code))}
     return [found[line] for line in sorted(found)][:MOST]
@@ -246,20 +249,20 @@ def _of_the_drive(program: _Program) -> Places:
 
 def _before_speeds(program: _Program) -> Places:
     found = {}
-    for node in walk(program.tree):
-        if not isinstance(node, ast.Assign) or isinstance(node.value, ast.Constant):
+    for node in nodes_of(program.tree, ast.Assign):
+        if isinstance(node.value, ast.Constant):
             continue
-        if any(ast.unparse(target).endswith("linear.x") for target in node.targets):
+        if any(unparse(target).endswith("linear.x") for target in node.targets):
             for test, form in _tests(program, node):
-                found[test.lineno] = {"line": test.lineno, "code": _short(form.format(ast.unparse(test)))}
+                found[test.lineno] = {"line": test.lineno, "code": _short(form.format(unparse(test)))}
     return [found[line] for line in sorted(found)][:MOST]
 
 
 def _callers(program: _Program) -> dict[str, list[ast.Call]]:
     """Return the calls of each function of the file, by its name; callbacks have none."""
     found: dict[str, list[ast.Call]] = {}
-    for call in (each for each in walk(program.tree) if isinstance(each, ast.Call)):
-        name = ast.unparse(call.func).removeprefix("self.")
+    for call in nodes_of(program.tree, ast.Call):
+        name = unparse(call.func).removeprefix("self.")
         if name in program.functions and len(found.setdefault(name, [])) < MOST:
             found[name].append(call)
     return found
@@ -268,9 +271,9 @@ def _callers(program: _Program) -> dict[str, list[ast.Call]]:
 def _topics(program: _Program) -> dict[str, str]:
     """Return the topic of each publisher that is made with a constant name."""
     found: dict[str, str] = {}
-    for node in walk(program.tree):
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and len(node.value.args) >= 2:
+    for node in nodes_of(program.tree, ast.Assign):
+        if isinstance(node.value, ast.Call) and len(node.value.args) >= 2:
             topic = node.value.args[1]
-            if ast.unparse(node.value.func).endswith("create_publisher") and isinstance(topic, ast.Constant):
-                found |= {ast.unparse(target): f"/{str(topic.value).lstrip('/')}" for target in node.targets}
+            if unparse(node.value.func).endswith("create_publisher") and isinstance(topic, ast.Constant):
+                found |= {unparse(target): f"/{str(topic.value).lstrip('/')}" for target in node.targets}
     return found

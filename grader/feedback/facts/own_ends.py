@@ -10,7 +10,19 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, Places, called, calls, functions, last_name, places_in, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Places,
+    called,
+    calls,
+    children,
+    functions,
+    last_name,
+    nodes_of,
+    places_in,
+    unparse,
+    walk,
+)
 
 EXITS = frozenset({"exit", "_exit", "quit", "abort", "kill"})
 RAISED = frozenset({"SystemExit", "KeyboardInterrupt", "ExternalShutdownException"})
@@ -39,32 +51,32 @@ def _end(node: ast.AST) -> str:
     """Return the code of a statement that ends the program; empty if it does not."""
     if isinstance(node, ast.Raise) and node.exc is not None:
         raised = node.exc.func if isinstance(node.exc, ast.Call) else node.exc
-        return ast.unparse(node) if last_name(raised) in RAISED else ""
+        return unparse(node) if last_name(raised) in RAISED else ""
     if not isinstance(node, ast.Call):
         return ""
-    owner = ast.unparse(node.func).rpartition(".")[0]
+    owner = unparse(node.func).rpartition(".")[0]
     name = last_name(node.func)
     if (name in EXITS and owner in ("", "sys", "os")) or (name in SHUTS and (owner == "rclpy" or "context" in owner)):
-        return ast.unparse(node)
-    return ast.unparse(node) if name in SHUTS and "executor" in owner else ""
+        return unparse(node)
+    return unparse(node) if name in SHUTS and "executor" in owner else ""
 
 
 def _spins_for_a_while(function: ast.FunctionDef) -> Iterator[Place]:
     """Find a loop of spin_once() that ends, or spinning until a future is done."""
-    for loop in (each for each in walk(function) if isinstance(each, ast.While | ast.For)):
+    for loop in nodes_of(function, ast.While, ast.For):
         if not called(loop) & SPINS:
             continue
         left = next((each for part in loop.body for each in _leaves(part)), None)
         if left is not None:
-            what = "break" if isinstance(left, ast.Break) else ast.unparse(left)
+            what = "break" if isinstance(left, ast.Break) else unparse(left)
             yield left.lineno, f"this {what} ends the loop of line {loop.lineno}, which spins, and the program"
-        test = ast.unparse(loop.test) if isinstance(loop, ast.While) else ""
+        test = unparse(loop.test) if isinstance(loop, ast.While) else ""
         if test not in ("True", "1", "rclpy.ok()"):
             said = f"`while {test}`" if test else "this loop"
             yield loop.lineno, f"{said} ends, and what spins in it: then the program is over"
     for call, name in calls(function):
         if name == "spin_until_future_complete" and _is_last(function, call):
-            code = ast.unparse(call)[:70]
+            code = unparse(call)[:70]
             yield call.lineno, f"`{code}` spins until the future is done; then the program is over"
 
 
@@ -73,7 +85,7 @@ def _leaves(part: ast.AST) -> Iterator[ast.Break | ast.Return | ast.Raise]:
     if isinstance(part, ast.Break | ast.Return) or (isinstance(part, ast.Raise) and part.exc is not None):
         yield part
     elif not isinstance(part, ast.ExceptHandler | ast.While | ast.For | ast.FunctionDef):
-        for child in ast.iter_child_nodes(part):
+        for child in children(part):
             yield from _leaves(child)
 
 

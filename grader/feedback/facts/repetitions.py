@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, Places, calls, functions, last_name, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Place, Places, calls, functions, last_name, nodes_of, places_in, walk
 
 MOST = 2  # places reported at most
 
@@ -39,9 +39,7 @@ def _timers(tree: ast.Module) -> Iterator[Place]:
 
 def _loops(tree: ast.Module) -> Iterator[Place]:
     """Find a loop that publishes in every iteration and has no end of its own, or a constant number of rounds."""
-    for loop in walk(tree):
-        if not isinstance(loop, ast.While | ast.For):
-            continue
+    for loop in nodes_of(tree, ast.While, ast.For):
         inside = [call.lineno for statement in loop.body for call, name in calls(statement) if name == "publish"]
         if inside and not any(isinstance(each, ast.Break | ast.Return | ast.FunctionDef) for each in walk(loop)):
             yield loop.lineno, f"this loop comes to publish() in line {inside[0]} again in each of its rounds"

@@ -10,7 +10,16 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Places, assigned, calls, functions, places_in, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Places,
+    assigned,
+    calls,
+    functions,
+    parents,
+    places_in,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 LEAVES = ast.Return | ast.Continue
@@ -36,7 +45,7 @@ def _on_a_condition(tree: ast.AST) -> Iterator[dict[str, Any]]:
             continue  # one of two branches publishes in any case
         call, (test, holds) = next((call, tests[0]) for call, tests in paths[0] if tests)
         words = "holds" if holds else "does not hold"
-        said = f"{ast.unparse(call.func)}() is called only while `{ast.unparse(test.test)[:70]}` {words}"
+        said = f"{unparse(call.func)}() is called only while `{unparse(test.test)[:70]}` {words}"
         yield {"line": call.lineno, "topic": topic, "said": f"{said} (line {test.lineno})"}
 
 
@@ -53,8 +62,8 @@ def _periods(tree: ast.Module) -> Iterator[dict[str, Any]]:
         }
         for call in timers:
             period = number(call.args[0], known) if len(call.args) > 1 else None
-            if period and ast.unparse(call.args[1]).rpartition(".")[2] in makers:
-                said = f"{ast.unparse(call)[:70]} publishes once in {period:g} s"
+            if period and unparse(call.args[1]).rpartition(".")[2] in makers:
+                said = f"{unparse(call)[:70]} publishes once in {period:g} s"
                 yield {"line": call.lineno, "topic": topic, "said": said, "period": period}
 
 
@@ -63,29 +72,29 @@ class _Program:
 
     def __init__(self, tree: ast.AST) -> None:
         self.callbacks = callbacks(tree)
-        self.parent = {child: node for node in walk(tree) for child in ast.iter_child_nodes(node)}
+        self.parent = parents(tree)
         self.set_back = {
-            ast.unparse(target)
+            unparse(target)
             for function in functions(tree)
             if function.name != "__init__"
             for target, value in assigned(function)
-            if ast.unparse(value) in ("None", "False", "[]", "{}", "deque()", "0")
+            if unparse(value) in ("None", "False", "[]", "{}", "deque()", "0")
         }
         self.owner: dict[ast.AST, ast.FunctionDef] = {}
         for function in functions(tree):
             self.owner |= {node: function for node in walk(function) if node is not function}
         self.calls = list(calls(tree))
         publishers = {
-            ast.unparse(target): f"/{str(value.args[1].value).lstrip('/')}"
+            unparse(target): f"/{str(value.args[1].value).lstrip('/')}"
             for target, value in assigned(tree)
             if isinstance(value, ast.Call)
-            and ast.unparse(value.func).endswith("create_publisher")
+            and unparse(value.func).endswith("create_publisher")
             and len(value.args) > 1
             and isinstance(value.args[1], ast.Constant)
         }
         self.sites: dict[str, list[ast.Call]] = {}
         for call, name in self.calls:
-            topic = publishers.get(ast.unparse(call.func).rpartition(".")[0]) if name == "publish" else None
+            topic = publishers.get(unparse(call.func).rpartition(".")[0]) if name == "publish" else None
             if topic:
                 self.sites.setdefault(topic, []).append(call)
 
@@ -122,5 +131,5 @@ class _Program:
             case ast.BoolOp():
                 return all(self._of_a_start(each) for each in test.values)
             case ast.UnaryOp(op=ast.Not(), operand=kept) | ast.Compare(left=kept, comparators=[ast.Constant(None)]):
-                return ast.unparse(kept) not in self.set_back
-        return isinstance(test, ast.Name | ast.Attribute) and ast.unparse(test) not in self.set_back
+                return unparse(kept) not in self.set_back
+        return isinstance(test, ast.Name | ast.Attribute) and unparse(test) not in self.set_back

@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    assigned,
+    calls,
+    children,
+    functions,
+    kept,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 ASKS = frozenset({"get_parameter", "get_parameter_or"})
 OF_MANY = frozenset({"get_parameters", "get_parameters_by_prefix", "get_parameter_types"})
@@ -14,6 +24,7 @@ MODULE = "<module>"
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
+@kept
 def declared(tree: ast.AST) -> dict[str, tuple[int, ast.expr | None]] | None:
     """Return line and default of each parameter that is declared; None if a name is not written as a text."""
     found: dict[str, tuple[int, ast.expr | None]] = {}
@@ -46,7 +57,7 @@ def _listed(tree: ast.AST, call: ast.Call) -> list[tuple[ast.expr, ast.expr | No
                 pass
             case _:
                 continue
-        if not any(each is call for each in walk(loop)) or [ast.unparse(each) for each in call.args] != [name, value]:
+        if not any(each is call for each in walk(loop)) or [unparse(each) for each in call.args] != [name, value]:
             continue
         match rows:
             case ast.Call(func=ast.Attribute(value=ast.Dict(keys=keys, values=values), attr="items")):
@@ -60,6 +71,7 @@ def _listed(tree: ast.AST, call: ast.Call) -> list[tuple[ast.expr, ast.expr | No
     return []
 
 
+@kept
 def readers(tree: ast.AST) -> set[str]:
     """Return the file's own functions that pass one of their arguments to get_parameter()."""
     return {
@@ -82,12 +94,13 @@ def reads(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
             yield call, str(first.value) if isinstance(first, ast.Constant) else ""
 
 
+@kept
 def owners(tree: ast.Module) -> dict[int, str]:
     """Return in which function each node stands, by its id: the innermost that has a name."""
     found: dict[int, str] = {}
 
     def go(node: ast.AST, name: str) -> None:
-        for child in ast.iter_child_nodes(node):
+        for child in children(node):
             inner = child.name if isinstance(child, Function) else name
             found[id(child)] = inner
             go(child, inner)
@@ -96,12 +109,13 @@ def owners(tree: ast.Module) -> dict[int, str]:
     return found
 
 
+@kept
 def only_at_the_start(tree: ast.Module) -> set[str]:
     """Return the functions that run once: __init__, main, and those that nobody but these calls or passes on."""
     inside, once = owners(tree), {MODULE, "__init__", "main"}
     used: dict[str, set[str]] = {}
-    for node in walk(tree):
-        if isinstance(node, ast.Attribute | ast.Name) and isinstance(node.ctx, ast.Load):
+    for node in nodes_of(tree, ast.Attribute, ast.Name):
+        if isinstance(node.ctx, ast.Load):
             used.setdefault(last_name(node), set()).add(inside[id(node)])
     direct = {last_name(call.func) for call, _ in calls(tree)}
     passed = {last_name(each) for call, _ in calls(tree) for each in [*call.args, *(k.value for k in call.keywords)]}
@@ -124,19 +138,17 @@ def members(function: ast.FunctionDef) -> set[str]:
     given = {each.arg for each in function.args.args} - {"self"}
     return {
         node.target.id
-        for node in walk(function)
-        if isinstance(node, ast.For | ast.comprehension)
-        and isinstance(node.target, ast.Name)
-        and isinstance(node.iter, ast.Name)
-        and node.iter.id in given
+        for node in nodes_of(function, ast.For, ast.comprehension)
+        if isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Name) and node.iter.id in given
     }
 
 
+@kept
 def objects(tree: ast.AST) -> set[str]:
     """Return the names and attributes that hold what get_parameter() returns, and never anything else."""
     held: dict[str, list[bool]] = {}
     for target, value in assigned(tree):
-        held.setdefault(ast.unparse(target), []).append(
+        held.setdefault(unparse(target), []).append(
             isinstance(value, ast.Call) and last_name(value.func) in ASKS | {"declare_parameter"}
         )
     return {name for name, found in held.items() if all(found)}

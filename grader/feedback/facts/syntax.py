@@ -4,29 +4,103 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
-from functools import lru_cache
-from typing import Any
+from functools import lru_cache, wraps
+from typing import Any, TypeVar, overload
 
 Place = tuple[int, str]  # line, and the words of a sentence
 Suspect = tuple[int, str, str]  # line, what it is about, and the words of a sentence
 Places = list[dict[str, Any]]
+Node = TypeVar("Node", bound=ast.AST)
+Value = TypeVar("Value")
+One = TypeVar("One", bound=ast.AST)
+Two = TypeVar("Two", bound=ast.AST)
+Three = TypeVar("Three", bound=ast.AST)
 # Nodes of a syntax tree, each counted once for every node above it: what it costs to look into each statement from
 # each of those around it. The longest solution has a third of that.
 MOST_WORK = 30_000
-WALKED = "_walked"
+KEPT = "_kept"
 GIVEN_UP = (SyntaxError, ValueError, RecursionError, MemoryError)
 
 
+class _Kept(dict[Any, Any]):
+    """What was read from a node, by what was asked. A copy of the node carries it along, and does not believe it."""
+
+    def __init__(self, node: ast.AST) -> None:
+        super().__init__()
+        self.node = node
+
+
+def kept(read: Callable[[Node], Value]) -> Callable[[Node], Value]:
+    """Let a node keep what a function of it alone returns: a hundred rules ask for the same. Nobody changes either."""
+
+    @wraps(read)
+    def ask(node: Node) -> Value:
+        known: _Kept | None = node.__dict__.get(KEPT)
+        if known is None or known.node is not node:
+            known = node.__dict__[KEPT] = _Kept(node)
+        if read not in known:
+            known[read] = read(node)
+        found: Value = known[read]
+        return found
+
+    return ask
+
+
+@kept
+def children(node: ast.AST) -> tuple[ast.AST, ...]:
+    """Return the nodes right below a node."""
+    return tuple(ast.iter_child_nodes(node))
+
+
+@kept
 def walk(node: ast.AST) -> tuple[ast.AST, ...]:
-    """Return a node and all nodes below it, as `ast.walk` does. The node keeps them: a hundred looks ask for them."""
-    kept: tuple[ast.AST, ...] | None = node.__dict__.get(WALKED)
-    if kept is None:
-        kept = node.__dict__[WALKED] = tuple(ast.walk(node))
-    return kept
+    """Return a node and all nodes below it, in the order of `ast.walk`."""
+    found = [node]
+    for each in found:
+        found += children(each)
+    return tuple(found)
 
 
-def functions(tree: ast.AST) -> Iterator[ast.FunctionDef]:
-    return (node for node in walk(tree) if isinstance(node, ast.FunctionDef))
+@kept
+def parents(tree: ast.AST) -> dict[ast.AST, ast.AST]:
+    """Return the node above each node of a tree."""
+    return {child: node for node in walk(tree) for child in children(node)}
+
+
+@kept
+def _by_kind(node: ast.AST) -> dict[Any, tuple[Any, ...]]:
+    """Return the nodes of a tree in the order of `walk`, by their class; `nodes_of` adds groups of classes."""
+    found: dict[Any, list[ast.AST]] = {}
+    for each in walk(node):
+        found.setdefault((type(each),), []).append(each)
+    return {kinds: tuple(nodes) for kinds, nodes in found.items()}
+
+
+@overload
+def nodes_of(tree: ast.AST, kind: type[One], /) -> tuple[One, ...]: ...
+@overload
+def nodes_of(tree: ast.AST, one: type[One], two: type[Two], /) -> tuple[One | Two, ...]: ...
+@overload
+def nodes_of(tree: ast.AST, one: type[One], two: type[Two], three: type[Three], /) -> tuple[One | Two | Three, ...]: ...
+
+
+def nodes_of(tree: ast.AST, *kinds: type[ast.AST]) -> tuple[Any, ...]:
+    """Return the nodes of a tree that are of one of these classes, in the order of `walk`."""
+    groups = _by_kind(tree)
+    found = groups.get(kinds)
+    if found is None:
+        found = groups[kinds] = tuple(each for each in walk(tree) if isinstance(each, kinds))
+    return found
+
+
+@kept
+def unparse(node: ast.AST) -> str:
+    """Return the text of a node, as `ast.unparse` writes it."""
+    return ast.unparse(node)
+
+
+def functions(tree: ast.AST) -> tuple[ast.FunctionDef, ...]:
+    return nodes_of(tree, ast.FunctionDef)
 
 
 def last_name(node: ast.AST) -> str:
@@ -36,35 +110,40 @@ def last_name(node: ast.AST) -> str:
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    """Yield every call with the last part of the name that is called: `cos` of `math.cos(x)`."""
-    return ((node, last_name(node.func)) for node in walk(tree) if isinstance(node, ast.Call))
+@kept
+def calls(tree: ast.AST) -> tuple[tuple[ast.Call, str], ...]:
+    """Return every call with the last part of the name that is called: `cos` of `math.cos(x)`."""
+    return tuple((node, last_name(node.func)) for node in nodes_of(tree, ast.Call))
 
 
-def called(tree: ast.AST) -> set[str]:
+@kept
+def called(tree: ast.AST) -> frozenset[str]:
     """Return the last parts of the names of all that is called."""
-    return {name for _, name in calls(tree)}
+    return frozenset(name for _, name in calls(tree))
 
 
-def assigned(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
-    """Yield every target of an assignment with its value; the parts of tuples one by one."""
-    for node in walk(tree):
-        if isinstance(node, ast.AugAssign | ast.AnnAssign) and node.value is not None:
-            yield node.target, node.value
+@kept
+def assigned(tree: ast.AST) -> tuple[tuple[ast.expr, ast.expr], ...]:
+    """Return every target of an assignment with its value; the parts of tuples one by one."""
+    found: list[tuple[ast.expr, ast.expr]] = []
+    for node in nodes_of(tree, ast.Assign, ast.AugAssign, ast.AnnAssign):
         if not isinstance(node, ast.Assign):
+            found += [(node.target, node.value)] if node.value is not None else []
             continue
         for target in node.targets:
             if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
-                yield from zip(target.elts, node.value.elts, strict=False)
+                found += zip(target.elts, node.value.elts, strict=False)
             else:
-                yield target, node.value
+                found.append((target, node.value))
+    return tuple(found)
 
 
+@kept
 def set_to(tree: ast.AST) -> dict[str, list[ast.expr]]:
     """Return what each name and attribute of a file is set to."""
     found: dict[str, list[ast.expr]] = {}
     for target, value in assigned(tree):
-        found.setdefault(ast.unparse(target), []).append(value)
+        found.setdefault(unparse(target), []).append(value)
     return found
 
 
@@ -74,14 +153,12 @@ def is_none(node: ast.AST) -> bool:
 
 def left_early(loop: ast.AST) -> bool:
     """Return whether a loop has a `break` or a `return` in it."""
-    return any(isinstance(each, ast.Break | ast.Return) for each in walk(loop))
+    return bool(nodes_of(loop, ast.Break, ast.Return))
 
 
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
     """Yield each assignment to a single target, after the target."""
-    for node in walk(tree):
-        if isinstance(node, ast.Assign) and len(node.targets) == 1:
-            yield node.targets[0], node
+    return ((node.targets[0], node) for node in nodes_of(tree, ast.Assign) if len(node.targets) == 1)
 
 
 def places_in(content: bytes, look: Callable[[ast.Module], Places]) -> Places:
@@ -109,10 +186,11 @@ def _parsed(content: bytes) -> ast.Module:
     return ast.parse(content)
 
 
+@kept
 def _work(tree: ast.AST) -> int:
     work, level, depth = 0, [tree], 0
     while level and work <= MOST_WORK:
         work += len(level) * depth
-        level = [child for node in level for child in ast.iter_child_nodes(node)]
+        level = [child for node in level for child in children(node)]
         depth += 1
     return work

@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import Places, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Places, nodes_of, places_in, unparse, walk
 
 MOST = 3  # places reported at most
 CLOCKS = frozenset({"get_clock", "stamp", "clock", "monotonic", "time", "Clock", "nanoseconds"})
@@ -25,7 +25,7 @@ def time_reckoning(content: bytes) -> Places:
 
 
 def _places(tree: ast.Module) -> Places:
-    names = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
+    names = {node.attr for node in nodes_of(tree, ast.Attribute)}
     found = [place for node in walk(tree) if (place := _part(node, names))]
     found += [place for function in _functions(tree) for place in _restarted(function)]
     if not names & CLOCKS:
@@ -34,13 +34,13 @@ def _places(tree: ast.Module) -> Places:
 
 
 def _functions(tree: ast.AST) -> list[ast.FunctionDef]:
-    return [node for node in walk(tree) if isinstance(node, ast.FunctionDef) and node.name != "__init__"]
+    return [node for node in nodes_of(tree, ast.FunctionDef) if node.name != "__init__"]
 
 
 def _counted(function: ast.FunctionDef) -> list[dict[str, Any]]:
     """Return where a function adds a constant to a variable that outlives it, outside of loops."""
-    looped = {id(inner) for node in walk(function) if isinstance(node, ast.For | ast.While) for inner in walk(node)}
-    kept = {name for node in walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names}
+    looped = {id(inner) for node in nodes_of(function, ast.For, ast.While) for inner in walk(node)}
+    kept = {name for node in nodes_of(function, ast.Global, ast.Nonlocal) for name in node.names}
     return [
         _place(node, "ticks")
         for node in walk(function)
@@ -55,11 +55,11 @@ def _restarted(function: ast.FunctionDef) -> list[dict[str, Any]]:
     for node in function.body:
         if not isinstance(node, ast.Assign) or len(node.targets) != 1 or not isinstance(node.targets[0], ast.Attribute):
             continue
-        start, now = ast.unparse(node.targets[0]), ast.unparse(node.value)
+        start, now = unparse(node.targets[0]), unparse(node.value)
         if any(
             isinstance(each, ast.BinOp)
             and isinstance(each.op, ast.Sub)
-            and (ast.unparse(each.left), ast.unparse(each.right)) == (now, start)
+            and (unparse(each.left), unparse(each.right)) == (now, start)
             and each.lineno > node.lineno
             for each in walk(function)
         ):
@@ -72,7 +72,7 @@ def _adds(node: ast.AST) -> ast.expr | None:
     if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add | ast.Sub):
         return node.target if isinstance(node.value, ast.Constant | ast.Name | ast.Attribute) else None
     if isinstance(node, ast.Assign) and isinstance(node.value, ast.BinOp) and len(node.targets) == 1:
-        same = ast.unparse(node.targets[0]) == ast.unparse(node.value.left)
+        same = unparse(node.targets[0]) == unparse(node.value.left)
         if same and isinstance(node.value.op, ast.Add | ast.Sub) and isinstance(node.value.right, ast.Constant):
             return node.targets[0]
     return None
@@ -80,7 +80,7 @@ def _adds(node: ast.AST) -> ast.expr | None:
 
 def _part(node: ast.AST, names: set[str]) -> dict[str, Any] | None:
     """Return the place if only one part of a time, its seconds or its nanoseconds, is used in the file."""
-    if isinstance(node, ast.Subscript) and ast.unparse(node.value).endswith("seconds_nanoseconds()"):
+    if isinstance(node, ast.Subscript) and unparse(node.value).endswith("seconds_nanoseconds()"):
         index = node.slice.value if isinstance(node.slice, ast.Constant) else None
         return _place(node, "nanosec" if index else "sec") if index in (0, 1) else None
     if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
@@ -92,4 +92,4 @@ def _part(node: ast.AST, names: set[str]) -> dict[str, Any] | None:
 
 
 def _place(node: Any, fault: str) -> dict[str, Any]:
-    return {"line": node.lineno, "code": ast.unparse(node)[:80], "fault": fault}
+    return {"line": node.lineno, "code": unparse(node)[:80], "fault": fault}

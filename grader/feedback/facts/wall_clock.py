@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import Places, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Places, nodes_of, places_in, unparse, walk
 
 ASKED = frozenset(
     f"time.{name}{unit}" for name in ("time", "monotonic", "perf_counter", "process_time") for unit in ("", "_ns")
@@ -28,11 +28,11 @@ def wall_clock(content: bytes) -> Places:
 def _places(tree: ast.Module) -> Places:
     names = imported(tree)
     found: list[dict[str, Any]] = []
-    for node in walk(tree):
-        if isinstance(node, ast.Call) and (call := dotted(node.func, names)) in ASKED | WAITED:
-            ros = call == "rclpy.clock.Clock" and any("ROS_TIME" in ast.unparse(each) for each in _arguments(node))
+    for node in nodes_of(tree, ast.Call):
+        if (call := dotted(node.func, names)) in ASKED | WAITED:
+            ros = call == "rclpy.clock.Clock" and any("ROS_TIME" in unparse(each) for each in _arguments(node))
             if not ros:
-                found.append({"line": node.lineno, "call": f"{ast.unparse(node.func)}()", "waits": call in WAITED})
+                found.append({"line": node.lineno, "call": f"{unparse(node.func)}()", "waits": call in WAITED})
     return sorted(found, key=lambda place: place["line"])[:MOST]
 
 

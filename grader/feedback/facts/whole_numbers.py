@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.feedback.facts.numpy_numbers import numpy_numbers
-from gz_course.grader.feedback.facts.syntax import Places, places_in, walk
+from gz_course.grader.feedback.facts.syntax import Places, places_in, unparse, walk
 
 MOST = 5  # places reported at most
 
@@ -36,14 +36,14 @@ def _places(tree: ast.Module, fields: dict[str, set[str]]) -> Iterator[dict[str,
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             for target in targets:
                 if isinstance(target, ast.Attribute) and node.value is not None and _whole(node.value, known):
-                    written = ast.unparse(target)
+                    written = unparse(target)
                     if any(written.endswith(f".{path}") for path in paths if "." in path or _is_message(target, path)):
-                        yield {"line": node.lineno, "field": written, "value": ast.unparse(node.value)}
+                        yield {"line": node.lineno, "field": written, "value": unparse(node.value)}
         elif isinstance(node, ast.Call):
-            owner = ast.unparse(node.func).rpartition(".")[2]
+            owner = unparse(node.func).rpartition(".")[2]
             for word in node.keywords:
                 if word.arg in fields.get(owner, ()) and _whole(word.value, known):
-                    yield {"line": word.value.lineno, "field": f"{owner}.{word.arg}", "value": ast.unparse(word.value)}
+                    yield {"line": word.value.lineno, "field": f"{owner}.{word.arg}", "value": unparse(word.value)}
 
 
 def _is_message(target: ast.Attribute, path: str) -> bool:
@@ -57,10 +57,10 @@ def _constants(tree: ast.Module) -> set[str]:
     for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
-                name = ast.unparse(target)
+                name = unparse(target)
                 whole[name] = whole.get(name, True) and _whole(node.value, set())
         elif isinstance(node, ast.AugAssign | ast.AnnAssign | ast.For | ast.NamedExpr):
-            whole[ast.unparse(node.target)] = False
+            whole[unparse(node.target)] = False
         elif isinstance(node, ast.arg):
             whole[node.arg] = False
     return {name for name, always in whole.items() if always}
@@ -84,5 +84,5 @@ def _whole(node: ast.expr, known: set[str]) -> bool:
         case ast.Call(func=ast.Name(id="int"), args=[_]) | ast.Call(func=ast.Name(id="round"), args=[_], keywords=[]):
             return True
         case ast.Name() | ast.Attribute():
-            return ast.unparse(node) in known
+            return unparse(node) in known
     return False

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Mapping
 
-from gz_course.grader.feedback.facts.syntax import called, last_name, parsed, walk
+from gz_course.grader.feedback.facts.syntax import called, last_name, nodes_of, parsed, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, text
 
 LONG = 5.0  # [s] of a TimerAction; what starts later than that misses most of a graded run
@@ -54,7 +54,7 @@ def functions_without_effect(file: LaunchFile) -> Iterator[Place]:
             continue
         if not any(_is_action(each) for each in walk(node)):
             continue
-        returned = [each for each in walk(node) if isinstance(each, ast.Return) and each.value is not None]
+        returned = [each for each in nodes_of(node, ast.Return) if each.value is not None]
         if node.name not in file.used:
             yield node.lineno, f"the function {node.name} makes actions, but nothing calls it"
         elif node.name in opaque and not returned:
@@ -138,7 +138,7 @@ def _own_node(parts: Iterable[ast.AST], nodes: Mapping[str, bytes]) -> str:
     names = {text(each).rpartition("/")[2] for part in parts for each in walk(part)} & nodes.keys()
     for name in sorted(names):
         tree = parsed(nodes[name])
-        own = [each for each in walk(tree) if isinstance(each, ast.ClassDef)]
+        own = [each for each in nodes_of(tree, ast.ClassDef)]
         inside = {last_name(each) for part in own for each in walk(part)}
         if "spin" in called(tree) and not inside & ENDS:
             return name
@@ -186,7 +186,7 @@ def swapped_conditions(file: LaunchFile) -> Iterator[Place]:
             yield (
                 call.lineno,
                 f"this gz sim has {'-r, so its world runs' if runs else 'no -r, so its world is paused'}, and "
-                f"{kind}({ast.unparse(condition.args[0])}) starts it if {name} is {'true' if runs else 'false'}: "
+                f"{kind}({unparse(condition.args[0])}) starts it if {name} is {'true' if runs else 'false'}: "
                 f"{other} is the right one here",
             )
 

@@ -9,7 +9,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import last_name, walk
+from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.feedback.launch_files.ros_arguments import command_words
 from gz_course.grader.feedback.launch_files.sim_time import texts_of
@@ -46,7 +46,7 @@ def glued_words(file: LaunchFile) -> Iterator[Place]:
             elif glued := _option_and_value(file.value(word)):
                 yield (
                     word.lineno,
-                    f"{ast.unparse(word)[:60]} is one word here, with a space in it: the program gets it as a single "
+                    f"{unparse(word)[:60]} is one word here, with a space in it: the program gets it as a single "
                     f"argument, which it does not know. {glued} and its value are two items of the list",
                 )
             elif isinstance(word, ast.BinOp | ast.JoinedStr) and any("--ros-args" in text(e) for e in walk(word)):
@@ -169,9 +169,9 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
             continue
         given = file.value(argument(call, "parameters"))
         arguments = argument(call, "arguments")
-        if arguments is not None and "config_file" not in ast.unparse(call):
+        if arguments is not None and "config_file" not in unparse(call):
             yield from _file_as_topic(file, arguments)
-        elif arguments is not None and "--ros-args" not in ast.unparse(file.value(arguments) or arguments):
+        elif arguments is not None and "--ros-args" not in unparse(file.value(arguments) or arguments):
             for each in walk(file.value(arguments) or arguments):
                 if text(each).startswith("config_file:=") and isinstance(each, ast.Constant):
                     yield (
@@ -185,7 +185,7 @@ def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
         files = [each for each in given.elts if not isinstance(file.value(each), ast.Dict)]
         if "config_file" in names or arguments is not None:
             continue
-        if files and ".yaml" in ast.unparse(file.value(files[0]) or files[0]):
+        if files and ".yaml" in unparse(file.value(files[0]) or files[0]):
             yield (
                 files[0].lineno,
                 "a path in the list of parameters is a file of ROS parameters; the bridge's file is the value of its "
@@ -215,7 +215,7 @@ def files_as_topics(file: LaunchFile) -> Iterator[Place]:
     """Find the bridge's file among the words behind `ros2 run ros_gz_bridge parameter_bridge`."""
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         given = argument(call, "cmd", 0)
-        if given is not None and "parameter_bridge" in ast.unparse(call) and "config_file" not in ast.unparse(call):
+        if given is not None and "parameter_bridge" in unparse(call) and "config_file" not in unparse(call):
             yield from _file_as_topic(file, given)
 
 
@@ -284,7 +284,7 @@ def glued_parts(file: LaunchFile) -> Iterator[Place]:
     """Find options and a value in gz_args that are joined without a space."""
     for call in file.calls("IncludeLaunchDescription"):
         given = file.value(argument(call, "launch_arguments", 1))
-        lists = [each for each in walk(given) if isinstance(each, ast.List)] if given is not None else []
+        lists = [each for each in nodes_of(given, ast.List)] if given is not None else []
         for parts in lists:
             for one, other in zip(parts.elts, parts.elts[1:], strict=False):
                 said = text(one)
@@ -308,7 +308,7 @@ def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
         if given is None:
             yield call.lineno, "gz_sim.launch.py gets no gz_args here, so gz sim gets no world and no -r"
             continue
-        keys = [text(key) for each in walk(given) if isinstance(each, ast.Dict) for key in each.keys if key]
+        keys = [text(key) for each in nodes_of(given, ast.Dict) for key in each.keys if key]
         if keys and all(keys):
             yield (
                 given.lineno,

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import walk
+from gz_course.grader.feedback.facts.syntax import unparse, walk
 from gz_course.grader.feedback.launch_files.actions import MAIN, endless
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, argument
 
@@ -33,7 +33,7 @@ def _actions(file: LaunchFile, programs: tuple[str, ...]) -> Iterator[dict[str, 
     grouped: dict[int, str] = {}
     for group in file.calls(*GROUPS):
         if condition := argument(group, "condition"):
-            grouped |= {id(each): ast.unparse(condition) for part in file.parts(group) for each in walk(part)}
+            grouped |= {id(each): unparse(condition) for part in file.parts(group) for each in walk(part)}
     decided = {
         id(each)
         for node in file.nodes
@@ -43,4 +43,4 @@ def _actions(file: LaunchFile, programs: tuple[str, ...]) -> Iterator[dict[str, 
     for call in file.calls(*STARTS):
         if endless(call) in programs and id(call) not in decided:
             condition = argument(call, "condition")
-            yield {"line": call.lineno, "condition": ast.unparse(condition) if condition else grouped.get(id(call), "")}
+            yield {"line": call.lineno, "condition": unparse(condition) if condition else grouped.get(id(call), "")}

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import functions, last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import PROCESSES, LaunchFile, argument, text
 
 ROUND = ("enumerate", "list", "tuple", "sorted", "reversed", "items", "keys", "values")
@@ -22,7 +22,7 @@ def fixed_counts(file: LaunchFile) -> Iterator[dict[str, Any]]:
     inside = set[int]()
     for loop in loops:
         parts = loop.body if isinstance(loop, ast.For) else [loop.elt]
-        calls = [each for part in parts for each in walk(part) if isinstance(each, ast.Call)]
+        calls = [each for part in parts for each in nodes_of(part, ast.Call)]
         inside |= {id(each) for each in calls}
         if not any(_starts(each) or last_name(each.func) in makers for each in calls):
             continue
@@ -32,8 +32,8 @@ def fixed_counts(file: LaunchFile) -> Iterator[dict[str, Any]]:
                 yield {"line": place.lineno, "count": count, "said": f"{_shown(over)} ends at {count}"}
     for call in file.calls("min"):
         numbers = [each.value for each in call.args if isinstance(each, ast.Constant) and isinstance(each.value, int)]
-        if len(call.args) == 2 and numbers and "robots" in ast.unparse(call):
-            said = f"{ast.unparse(call)[:60]} is never more than {numbers[0]}"
+        if len(call.args) == 2 and numbers and "robots" in unparse(call):
+            said = f"{unparse(call)[:60]} is never more than {numbers[0]}"
             yield {"line": call.lineno, "count": numbers[0], "said": said}
     made = [call for call in file.calls("Node") if text(argument(call, "executable", 0)) == "create"]
     in_functions = {id(each) for f in functions(file.tree) if f.name in makers for each in walk(f)}
@@ -48,7 +48,7 @@ def _starts(node: ast.AST) -> bool:
 
 
 def _shown(over: ast.expr) -> str:
-    said = ast.unparse(over)
+    said = unparse(over)
     return said if len(said) <= 40 else "the list"
 
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 from functools import cached_property
 
-from gz_course.grader.feedback.facts.syntax import last_name, walk
+from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, walk
 
 Place = tuple[int, str]
 PROCESSES = frozenset({"Node", "LifecycleNode", "ExecuteProcess", "ExecuteLocal", "IncludeLaunchDescription"})
@@ -66,7 +66,7 @@ class LaunchFile:
         found: dict[int, ast.FunctionDef] = {}
         for node in self.nodes:  # outer functions come before inner ones
             if isinstance(node, ast.FunctionDef):
-                found |= {id(each): node for each in walk(node) if isinstance(each, ast.Call)}
+                found |= {id(each): node for each in nodes_of(node, ast.Call)}
         return found
 
     @cached_property
@@ -84,7 +84,7 @@ class LaunchFile:
         """Return an expression, and all that the names in it stand for, one after another."""
         found, seen = [node], set[str]()
         for each in found:
-            names = {part.id for part in walk(each) if isinstance(part, ast.Name)} - seen
+            names = {part.id for part in nodes_of(each, ast.Name)} - seen
             seen |= names
             found += [value for name in sorted(names) for value in self.assigned.get(name, ())]
         return found

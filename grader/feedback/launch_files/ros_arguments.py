@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
-from gz_course.grader.feedback.facts.syntax import last_name, walk
+from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.feedback.launch_files.unread import OF_EVERY_NODE, declared_parameters
 
@@ -32,7 +32,7 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
         for before, word in pairwise(word for word in words if word is not None):
             said = "".join(text(each) for each in walk(word))
             if text(before) in PARAMETER + RULE and ":=" in said:
-                option = f"{text(before)} {said if text(word) else ast.unparse(word)}"
+                option = f"{text(before)} {said if text(word) else unparse(word)}"
                 yield (
                     word.lineno,
                     f"--ros-args is missing before {option}: words before it "
@@ -55,7 +55,7 @@ def before_ros_args(file: LaunchFile) -> Iterator[Place]:
             said = "".join(text(each) for each in walk(word))
             if ":=" not in said:
                 continue
-            option = f"{text(before)} {said if text(word) else ast.unparse(word)}"
+            option = f"{text(before)} {said if text(word) else unparse(word)}"
             which = "before --ros-args" if number < marks[0] else "behind the -- that ends the words after --ros-args"
             yield (
                 word.lineno,
@@ -75,7 +75,7 @@ def values_apart(file: LaunchFile) -> Iterator[Place]:
                     yield (
                         word.lineno,
                         f"{said!r} and its value are two words here, and must be one: a list inside of the list joins "
-                        f"them, [{said!r}, {ast.unparse(value)[:60]}]",
+                        f"them, [{said!r}, {unparse(value)[:60]}]",
                     )
 
 
@@ -84,7 +84,7 @@ def nested_parameters(file: LaunchFile) -> Iterator[Place]:
     for call in file.calls("Node", "LifecycleNode"):
         given = argument(call, "parameters")
         for part in file.parts(given) if given is not None else ():
-            for table in (each for each in walk(part) if isinstance(each, ast.Dict)):
+            for table in nodes_of(part, ast.Dict):
                 if any(key is not None and text(key) == "ros__parameters" for key in table.keys):
                     yield (
                         table.lineno,
@@ -99,7 +99,7 @@ def quoted_truths(file: LaunchFile) -> Iterator[Place]:
     for call in file.calls("Node", "LifecycleNode"):
         given = argument(call, "parameters")
         for part in file.parts(given) if given is not None else ():
-            for table in (each for each in walk(part) if isinstance(each, ast.Dict)):
+            for table in nodes_of(part, ast.Dict):
                 for key, value in zip(table.keys, table.values, strict=True):
                     if key is not None and text(key) == "use_sim_time" and text(value):
                         yield (
@@ -200,10 +200,10 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     for node in walk(scope) if scope is not file.tree else ():
         if isinstance(node, ast.Assign | ast.AugAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            if name in [ast.unparse(target) for target in targets]:
+            if name in [unparse(target) for target in targets]:
                 found.append((node.lineno, node.value))
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[::2] in grows and node.args:
-            extends = ast.unparse(node.func).endswith(".extend")
+        elif isinstance(node, ast.Call) and unparse(node.func).rpartition(".")[::2] in grows and node.args:
+            extends = unparse(node.func).endswith(".extend")
             found.append((node.lineno, node.args[0] if extends else ast.List(node.args[-1:], ast.Load())))
     if found:
         return [value for _, value in sorted(found, key=lambda each: each[0])]

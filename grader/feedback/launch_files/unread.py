@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping
 
-from gz_course.grader.feedback.facts.syntax import calls, last_name, parsed, walk
+from gz_course.grader.feedback.facts.syntax import calls, last_name, parsed, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.sim.did_you_mean import nearest_name
 
@@ -107,7 +107,7 @@ def declared_parameters(content: bytes) -> set[str]:
     names = {text(argument(call, "name", 0)) for call, _ in found}
     if "" in names or any(name == "declare_parameters" for _, name in found):
         return set()
-    return set() if "undeclared_parameters" in ast.unparse(tree) else names
+    return set() if "undeclared_parameters" in unparse(tree) else names
 
 
 def _given(file: LaunchFile, call: ast.Call) -> Iterator[tuple[str, int]]:

@@ -12,7 +12,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import last_name, walk
+from gz_course.grader.feedback.facts.syntax import last_name, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 
 TRUTHS = frozenset({"True", "False"})
@@ -65,7 +65,7 @@ def _instead(name: str) -> str:
 
 
 def _code(node: ast.AST) -> str:
-    return ast.unparse(node)[:80]
+    return unparse(node)[:80]
 
 
 def written_into_text(file: LaunchFile) -> Iterator[Place]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, last_name, walk
+from gz_course.grader.feedback.facts.syntax import assigned, last_name, unparse, walk
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, text
 
 WAIT = frozenset({"run", "call", "check_call", "check_output", "getoutput", "getstatusoutput", "system"})
@@ -34,7 +34,7 @@ def waits(file: LaunchFile) -> Iterator[Place]:
         if not call.args or not _is_of_subprocess(call.func, imported):
             continue
         words = _words(file, call.args[0])
-        how = ast.unparse(call.func)
+        how = unparse(call.func)
         if name := next((word for word in CREATORS if "ros_gz_sim" in words and word in words), ""):
             if later:
                 continue

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, walk
+from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
 
 MOST_STEPS = 100_000  # added at most; no timer of a run fires that often
 
@@ -19,30 +19,30 @@ def compared_exactly(tree: ast.AST) -> Iterator[Place]:
     """Find `elapsed == 1.0` where elapsed is only set to a number and to itself plus a step."""
     known = named_numbers(tree)
     steps = _steps(tree, known)
-    for node in walk(tree):
-        if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+    for node in nodes_of(tree, ast.Compare):
+        if len(node.ops) != 1 or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
             continue
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
             limit = number(other, known)
             if limit is not None and (why := _never(one, limit, steps, known)):
-                yield node.lineno, f"{ast.unparse(node)[:60]}: {why}"
+                yield node.lineno, f"{unparse(node)[:60]}: {why}"
 
 
 def _never(node: ast.expr, limit: Number, steps: dict[str, tuple[Number, Number]], known: dict[str, Number]) -> str:
     """Return why a sum, a multiple of it or its remainder is never exactly a number; empty if it may be."""
     match node:
-        case ast.Name() | ast.Attribute() if (name := ast.unparse(node)) in steps:
+        case ast.Name() | ast.Attribute() if (name := unparse(node)) in steps:
             start, step = steps[name]
             around = _around(start, step, limit)
             said = f"{name} is never exactly {limit:g}: adding {step:g} again and again gives"
         case ast.BinOp(left=ast.Name() | ast.Attribute() as of, op=ast.Mult(), right=right) if (
-            name := ast.unparse(of)
+            name := unparse(of)
         ) in steps and (factor := number(right, known)):
             start, step = steps[name]
             around = _around_multiple(start, step, factor, limit)
-            said = f"{ast.unparse(node)} is never exactly {limit:g}: it is"
+            said = f"{unparse(node)} is never exactly {limit:g}: it is"
         case ast.BinOp(left=ast.Name() | ast.Attribute() as of, op=ast.Mod(), right=right) if (
-            name := ast.unparse(of)
+            name := unparse(of)
         ) in steps and (whole := number(right, known)):
             start, step = steps[name]
             around = _around(start, step, limit + whole)  # the first time that it is reached but for the start
@@ -66,18 +66,18 @@ def _steps(tree: ast.AST, known: dict[str, Number]) -> dict[str, tuple[Number, N
     for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
-                name = ast.unparse(target)
+                name = unparse(target)
                 match node.value:
-                    case ast.BinOp(left=left, op=op, right=right) if ast.unparse(left) == name:
+                    case ast.BinOp(left=left, op=op, right=right) if unparse(left) == name:
                         added.setdefault(name, set()).add(_change(op, number(right, known)))
                     case value:
                         starts.setdefault(name, set()).add(number(value, known))
         elif isinstance(node, ast.AugAssign):
             change = _change(node.op, number(node.value, known))
-            added.setdefault(ast.unparse(node.target), set()).add(change)
+            added.setdefault(unparse(node.target), set()).add(change)
         elif isinstance(node, ast.For | ast.AnnAssign | ast.NamedExpr):
             given = node.value if isinstance(node, ast.AnnAssign) else None
-            starts.setdefault(ast.unparse(node.target), set()).add(number(given, known))
+            starts.setdefault(unparse(node.target), set()).add(number(given, known))
     found: dict[str, tuple[Number, Number]] = {}
     for name, steps in added.items():
         begins = starts.get(name, set())

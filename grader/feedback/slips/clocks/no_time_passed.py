@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, children, functions, last_name, unparse, walk
 
 
 def updated_too_early(tree: ast.AST) -> Iterator[Place]:
@@ -24,16 +24,16 @@ def _in_block(
     """
     for statement in body:
         inner = [getattr(statement, name, []) for name in ("body", "orelse", "finalbody")]
-        heads = [each for each in ast.iter_child_nodes(statement) if isinstance(each, ast.expr)]
+        heads = [each for each in children(statement) if isinstance(each, ast.expr)]
         for node in (each for head in heads for each in walk(head)):
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
-                left, right = ast.unparse(node.left), ast.unparse(node.right)
+                left, right = unparse(node.left), unparse(node.right)
                 for one, other in ((right, left), (left, right)):
                     known = kept.get(one) or ("", 0)
                     if known[0] == other:
                         yield (
                             node.lineno,
-                            f"{ast.unparse(node)[:60]} is always 0, because line {known[1]} has made {one} the same as "
+                            f"{unparse(node)[:60]} is always 0, because line {known[1]} has made {one} the same as "
                             f"{other}: do that after the difference is taken",
                         )
                         return
@@ -45,19 +45,19 @@ def _in_block(
         for part in inner:
             if isinstance(part, list):
                 yield from _in_block(part, dict(kept), own)
-        changed = {ast.unparse(target) for target, _ in assigned(statement)}
+        changed = {unparse(target) for target, _ in assigned(statement)}
         for name in [name for name, (of, _) in kept.items() if {name, of} & changed]:
             del kept[name]
         if isinstance(statement, ast.Assign):
             for target, value in assigned(statement):
                 if isinstance(target, ast.Attribute) and isinstance(value, ast.Name) and value.id not in changed:
-                    kept[ast.unparse(target)] = (value.id, statement.lineno)
+                    kept[unparse(target)] = (value.id, statement.lineno)
 
 
 def _passed_on(call: ast.Call, function: ast.FunctionDef, kept: dict[str, tuple[str, int]]) -> Iterator[Place]:
     """Go through a function that is called with what an attribute of self is a copy of."""
     names = [each.arg for each in function.args.args if each.arg != "self"]
-    given = {ast.unparse(value): name for name, value in zip(names, call.args, strict=False)}
+    given = {unparse(value): name for name, value in zip(names, call.args, strict=False)}
     inner = {
         kept_name: (given[of], line)
         for kept_name, (of, line) in kept.items()

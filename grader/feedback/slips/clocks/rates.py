@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
 
 IN_SECONDS = re.compile(r"1e-?0?9|10\s*\*\*\s*-?9|1_?000_?000_?000(?:\.0)?|1000000000")
 ERROR = re.compile(r"err|diff|dev", re.IGNORECASE)
@@ -14,28 +14,28 @@ ERROR = re.compile(r"err|diff|dev", re.IGNORECASE)
 
 def per_nanosecond(tree: ast.AST) -> Iterator[Place]:
     """Find `(error - last_error) / dt` and `total += error * dt` where dt is a difference of nanoseconds."""
-    text = ast.unparse(tree)
+    text = unparse(tree)
     if ".nanoseconds" not in text or IN_SECONDS.search(text) or re.search(r"\b1000000000(?:\.0)?\b", text):
         return
     times = _times(tree)
-    values = {ast.unparse(target): value for target, value in assigned(tree)}
+    values = {unparse(target): value for target, value in assigned(tree)}
     spans = {name: value for name, value in values.items() if _is_span(value, times)}
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Div | ast.Mult):
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Div | ast.Mult):
             continue
         for one, span in ((node.left, node.right), (node.right, node.left)):
             if isinstance(node.op, ast.Div) and span is node.left:
                 continue
-            name = ast.unparse(span)
+            name = unparse(span)
             if name not in spans and not _is_span(span, times):
                 continue
-            amount = values.get(ast.unparse(one), one)
+            amount = values.get(unparse(one), one)
             change = isinstance(amount, ast.BinOp) and isinstance(amount.op, ast.Sub) and not _is_span(amount, times)
-            if change or ERROR.search(ast.unparse(one)):
+            if change or ERROR.search(unparse(one)):
                 how = "small" if isinstance(node.op, ast.Div) else "large"
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]}: {name[:40]} is in nanoseconds, so this is 1e9 times too {how}; divide "
+                    f"{unparse(node)[:60]}: {name[:40]} is in nanoseconds, so this is 1e9 times too {how}; divide "
                     "the time by 1e9 first, for seconds",
                 )
                 return
@@ -50,7 +50,7 @@ def _times(tree: ast.AST) -> set[str]:
     for _ in range(2):
         for target, value in assigned(tree):
             if _is_time(value, found):
-                found.add(ast.unparse(target))
+                found.add(unparse(target))
         for call, _name in calls(tree):
             for name, value in zip(own.get(last_name(call.func), []), call.args, strict=False):
                 if _is_time(value, found):
@@ -59,7 +59,7 @@ def _times(tree: ast.AST) -> set[str]:
 
 
 def _is_time(value: ast.expr, found: set[str]) -> bool:
-    return (isinstance(value, ast.Attribute) and value.attr == "nanoseconds") or ast.unparse(value) in found
+    return (isinstance(value, ast.Attribute) and value.attr == "nanoseconds") or unparse(value) in found
 
 
 def _is_span(value: ast.expr, times: set[str]) -> bool:

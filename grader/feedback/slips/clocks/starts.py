@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, nodes_of, unparse, walk
 
 TIME = re.compile(r"\bnow\b|clock|stamp|nanosec|time", re.IGNORECASE)  # in what makes a time
 LONG = 1.0  # [s] or more is no time between two calls
@@ -16,80 +16,78 @@ def set_anew(tree: ast.AST) -> Iterator[Place]:
     """Find `now - self.start` that is compared with seconds, where each call also sets `self.start = now`."""
     for function in functions(tree):
         always = {
-            ast.unparse(statement.targets[0]): statement
+            unparse(statement.targets[0]): statement
             for statement in function.body
             if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Attribute)
         }
         since: dict[str, str] = {}  # name of a difference -> its start
-        for node in walk(function):
-            if isinstance(node, ast.Assign) and (start := _start(node.value, always)):
-                since[ast.unparse(node.targets[0])] = start
-        for node in walk(function):
-            if not isinstance(node, ast.Compare) or not _is_long(node.comparators[0]):
+        for node in nodes_of(function, ast.Assign):
+            if start := _start(node.value, always):
+                since[unparse(node.targets[0])] = start
+        for asked in nodes_of(function, ast.Compare):
+            if not _is_long(asked.comparators[0]):
                 continue
-            start = _start(node.left, always) or since.get(ast.unparse(node.left), "")
+            start = _start(asked.left, always) or since.get(unparse(asked.left), "")
             if start:
                 line = always[start].lineno
                 yield (
                     line,
-                    f"{start} is set again in every call of {function.name}, so line {node.lineno} compares the time "
+                    f"{start} is set again in every call of {function.name}, so line {asked.lineno} compares the time "
                     "since the last call: what is measured from the start is set once",
                 )
 
 
 def _start(value: ast.expr, always: dict[str, ast.Assign]) -> str:
     """Return the start of which a time is the difference, if each call sets it to the same end."""
-    for node in walk(value):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
-            start, end = ast.unparse(node.right), ast.unparse(node.left)
-            if start in always and ast.unparse(always[start].value) == end:
+    for node in nodes_of(value, ast.BinOp):
+        if isinstance(node.op, ast.Sub):
+            start, end = unparse(node.right), unparse(node.left)
+            if start in always and unparse(always[start].value) == end:
                 return start
     return ""
 
 
 def _is_long(value: ast.expr) -> bool:
     """Return whether an expression is a number, or a Duration, of a second or more."""
-    numbers = [
-        each.value for each in walk(value) if isinstance(each, ast.Constant) and isinstance(each.value, int | float)
-    ]
+    numbers = [each.value for each in nodes_of(value, ast.Constant) if isinstance(each.value, int | float)]
     return any(number >= LONG for number in numbers)
 
 
 def added_up(tree: ast.AST) -> Iterator[Place]:
     """Find `self.driven += now - self.start` in a callback that does not set the start anew."""
     once = {
-        ast.unparse(target)
-        for node in walk(tree)
-        if isinstance(node, ast.If) and _asks_for_none(node.test)
+        unparse(target)
+        for node in nodes_of(tree, ast.If)
+        if _asks_for_none(node.test)
         for statement in node.body
         for target, value in assigned(statement)
-        if TIME.search(ast.unparse(value))
+        if TIME.search(unparse(value))
     }
     for function in functions(tree):
         inside = {
             id(each)
-            for node in walk(function)
-            if isinstance(node, ast.If) and _asks_for_none(node.test)
+            for node in nodes_of(function, ast.If)
+            if _asks_for_none(node.test)
             for statement in node.body
             for each in walk(statement)
         }
-        again = {ast.unparse(target) for target, value in assigned(function) if id(value) not in inside}
-        for node in walk(function):
-            if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+        again = {unparse(target) for target, value in assigned(function) if id(value) not in inside}
+        for node in nodes_of(function, ast.AugAssign):
+            if not isinstance(node.op, ast.Add):
                 continue
-            for each in walk(node.value):
-                if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub):
-                    start = ast.unparse(each.right)
+            for each in nodes_of(node.value, ast.BinOp):
+                if isinstance(each.op, ast.Sub):
+                    start = unparse(each.right)
                     if start in once - again and start.startswith("self."):
                         yield (
                             node.lineno,
-                            f"{ast.unparse(node)[:70]} adds the whole time since {start} in every call, although "
+                            f"{unparse(node)[:70]} adds the whole time since {start} in every call, although "
                             f"{start} stays the same: that time is a difference, with = and not +=",
                         )
 
 
 def _asks_for_none(test: ast.expr) -> bool:
-    return isinstance(test, ast.UnaryOp) or ast.unparse(test).endswith("is None")
+    return isinstance(test, ast.UnaryOp) or unparse(test).endswith("is None")
 
 
 LOOKS = (set_anew, added_up)

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, walk
+from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
 
 UNITS = {1e-9: "nanoseconds", 1e-6: "microseconds", 1e-3: "milliseconds", 1.0: "seconds", 60.0: "minutes"}
 SHORTEST = 0.02  # [s] a shorter time, written in another unit than seconds, is compared with by mistake
@@ -26,11 +26,11 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons of a time with a number that is no usual time in the unit of the former."""
     numbers = named_numbers(tree)
     values = _values(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+    for node in nodes_of(tree, ast.Compare):
+        if len(node.ops) != 1:
             continue
         if isinstance(node.ops[0], ast.Eq) and _lasts(node.left, values) != _lasts(node.comparators[0], values):
-            code = ast.unparse(node)[:70]
+            code = unparse(node)[:70]
             yield node.lineno, f"{code}: a time is hardly ever exactly this one when it is looked at; {HOLDS}"
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
             unit, limit = _unit(one, values, numbers, STEPS), number(other, numbers)
@@ -39,7 +39,7 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
             seconds = abs(limit) * unit
             if math.isclose(unit, 1.0) and seconds > LONGEST and _is_age(one, values, STEPS):
                 continue  # a limit that no age exceeds has no wrong unit
-            code = ast.unparse(node)[:70]
+            code = unparse(node)[:70]
             if isinstance(node.ops[0], ast.Eq):
                 yield (
                     node.lineno,
@@ -52,19 +52,19 @@ def wrong_units(tree: ast.AST) -> Iterator[Place]:
 
 def _is_age(node: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) -> bool:
     """Return whether a time is the age of a message, which is reckoned from a stamp."""
-    parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    parts = [each for each in nodes_of(node, ast.Name, ast.Attribute)]
     if any(isinstance(each, ast.Attribute) and each.attr == "stamp" for each in parts):
         return True
-    known = {ast.unparse(each) for each in parts} & values.keys() if steps else set()
+    known = {unparse(each) for each in parts} & values.keys() if steps else set()
     return any(_is_age(value, values, steps - 1) for name in known for value in values[name])
 
 
 def _lasts(node: ast.expr, values: Mapping[str, list[ast.expr]]) -> bool:
     """Return whether an expression is a Duration that is not 0, or the name of one."""
-    given = values.get(ast.unparse(node), []) if isinstance(node, ast.Name | ast.Attribute) else [node]
+    given = values.get(unparse(node), []) if isinstance(node, ast.Name | ast.Attribute) else [node]
     return len(given) == 1 and (
         isinstance(given[0], ast.Call)
-        and ast.unparse(given[0].func).rpartition(".")[2] == "Duration"
+        and unparse(given[0].func).rpartition(".")[2] == "Duration"
         and any(number(each.value, {}) for each in given[0].keywords)
     )
 
@@ -81,8 +81,8 @@ def _said(unit: float, limit: Number, seconds: float) -> str:
 
 
 def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] != "Duration":
+    for node in nodes_of(tree, ast.Call):
+        if unparse(node.func).rpartition(".")[2] != "Duration":
             continue
         seconds = 0.0
         for each in node.keywords:
@@ -92,23 +92,23 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
             seconds += value * (1e-9 if each.arg.startswith("nano") else 1.0)
         else:
             if abs(seconds) > LONGEST or 1e-9 < abs(seconds) < 1e-6:
-                yield node.lineno, f"{ast.unparse(node)} lasts {seconds:g} s: 5 s are Duration(seconds=5)"
+                yield node.lineno, f"{unparse(node)} lasts {seconds:g} s: 5 s are Duration(seconds=5)"
 
 
 def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
     """Find a Time that is asked whether it equals a number, which it never does."""
     numbers, values = named_numbers(tree), _values(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+    for node in nodes_of(tree, ast.Compare):
+        if not isinstance(node.ops[0], ast.Eq | ast.NotEq):
             continue
-        code = ast.unparse(node.left)
+        code = unparse(node.left)
         now = code.endswith("get_clock().now()") or [
-            ast.unparse(each).endswith("get_clock().now()") for each in values.get(code, [])
+            unparse(each).endswith("get_clock().now()") for each in values.get(code, [])
         ] == [True]
         if now and number(node.comparators[0], numbers) is not None:
             yield (
                 node.lineno,
-                f"{ast.unparse(node)[:70]}: {code} is a Time and never equal to a number: the seconds that have passed "
+                f"{unparse(node)[:70]}: {code} is a Time and never equal to a number: the seconds that have passed "
                 "are (now - start).nanoseconds / 1e9, and >= holds from a moment on",
             )
 
@@ -119,15 +119,15 @@ def negative_times(tree: ast.AST) -> Iterator[Place]:
     fresh = {name: given for name, given in values.items() if not name.startswith("self.")}
     inside_abs = {
         id(inner)
-        for node in walk(tree)
-        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in ("abs", "fabs")
+        for node in nodes_of(tree, ast.Call)
+        if unparse(node.func).rpartition(".")[2] in ("abs", "fabs")
         for inner in walk(node)
     }
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub) or id(node) in inside_abs:
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Sub) or id(node) in inside_abs:
             continue
-        left, right = ast.unparse(node.left), ast.unparse(node.right)
-        now = right.endswith(".now()") or [ast.unparse(each)[-6:] for each in values.get(right, [])] == [".now()"]
+        left, right = unparse(node.left), unparse(node.right)
+        now = right.endswith(".now()") or [unparse(each)[-6:] for each in values.get(right, [])] == [".now()"]
         kept = left.startswith("self.") and _was_read(node.left, values, STEPS)
         if (START.search(left) and now) or (kept and not START.search(right) and _was_read(node.right, fresh, STEPS)):
             yield (
@@ -160,7 +160,7 @@ def _was_read(node: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) 
         case ast.Call(func=ast.Attribute(attr=name) | ast.Name(id=name)) if values.get(f"{name}()"):
             return all(again(each) for each in values[f"{name}()"])
         case ast.Name() | ast.Attribute():
-            given = [each for each in values.get(ast.unparse(node), []) if number(each, {}) is None]
+            given = [each for each in values.get(unparse(node), []) if number(each, {}) is None]
             given = [each for each in given if not _nothing(each)]
             return bool(given) and all(again(each) for each in given)
     return False
@@ -171,11 +171,11 @@ def _values(tree: ast.AST) -> dict[str, list[ast.expr]]:
     found: dict[str, list[ast.expr]] = {}
     for node in walk(tree):
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
-            found.setdefault(ast.unparse(node.targets[0]), []).append(node.value)
+            found.setdefault(unparse(node.targets[0]), []).append(node.value)
         elif isinstance(node, ast.AnnAssign | ast.NamedExpr) and node.value is not None:
-            found.setdefault(ast.unparse(node.target), []).append(node.value)
+            found.setdefault(unparse(node.target), []).append(node.value)
         elif isinstance(node, ast.FunctionDef):
-            returned = [each.value for each in walk(node) if isinstance(each, ast.Return) and each.value is not None]
+            returned = [each.value for each in nodes_of(node, ast.Return) if each.value is not None]
             found.setdefault(f"{node.name}()", []).extend(returned)
     return found
 
@@ -197,7 +197,7 @@ def _unit(node: ast.expr, values: dict[str, list[ast.expr]], numbers: Mapping[st
     match node:
         case ast.Attribute(attr="nanoseconds"):
             return 1e-9
-        case ast.Call(func=func) if ast.unparse(func) in WALL:
+        case ast.Call(func=func) if unparse(func) in WALL:
             return 1.0
         case ast.Call(func=ast.Name(id="int" | "float" | "abs" | "round"), args=[inner, *_]):
             return again(inner)
@@ -216,7 +216,7 @@ def _unit(node: ast.expr, values: dict[str, list[ast.expr]], numbers: Mapping[st
                     return unit / factor
             return None
         case ast.Name() | ast.Attribute():
-            assigned = [each for each in values.get(ast.unparse(node), []) if not _nothing(each)]
+            assigned = [each for each in values.get(unparse(node), []) if not _nothing(each)]
             return _common([again(each) for each in assigned])
     return None
 

@@ -8,18 +8,17 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, nodes_of, unparse, walk
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
 
 
 def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
-    for node in walk(tree):
-        if isinstance(node, ast.Call):
-            owner, _, name = ast.unparse(node.func).rpartition(".")
-            if owner in ("", "math", "np", "numpy"):
-                yield node, name
+    for node in nodes_of(tree, ast.Call):
+        owner, _, name = unparse(node.func).rpartition(".")
+        if owner in ("", "math", "np", "numpy"):
+            yield node, name
 
 
 def degrees_for_radians(tree: ast.AST) -> Iterator[Place]:
@@ -28,10 +27,10 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Place]:
     for call, name in _calls(tree):
         if not call.args:
             continue
-        code, given = ast.unparse(call)[:60], call.args[0]
+        code, given = unparse(call)[:60], call.args[0]
         if name in OF_ANGLES:
             value = number(given, known)
-            inner = ast.unparse(given.func).rpartition(".")[2] if isinstance(given, ast.Call) else ""
+            inner = unparse(given.func).rpartition(".")[2] if isinstance(given, ast.Call) else ""
             if inner in ("degrees", "rad2deg") or (isinstance(value, int) and abs(value) > 2 * math.pi):
                 yield call.lineno, f"{code}: {name}() takes radians, not degrees; math.radians() converts them"
         elif name in ("radians", "deg2rad") and isinstance(given, ast.Attribute) and given.attr in IN_RADIANS:
@@ -44,7 +43,7 @@ def exchanged_atan2(tree: ast.AST) -> Iterator[Place]:
             continue
         first, second = (_axis(each) for each in call.args)
         if (first, second) == ("x", "y"):
-            yield call.lineno, f"{ast.unparse(call)[:60]}: {name} takes y first and x second"
+            yield call.lineno, f"{unparse(call)[:60]}: {name} takes y first and x second"
 
 
 def quotients_for_directions(tree: ast.AST) -> Iterator[Place]:
@@ -56,8 +55,8 @@ def quotients_for_directions(tree: ast.AST) -> Iterator[Place]:
         if (_axis(given.left), _axis(given.right)) == ("y", "x"):
             yield (
                 call.lineno,
-                f"{ast.unparse(call)[:60]} is between -90 and 90 degrees, so what lies behind seems to be ahead, and "
-                f"it divides by 0 to the side: atan2({ast.unparse(given.left)}, {ast.unparse(given.right)})",
+                f"{unparse(call)[:60]} is between -90 and 90 degrees, so what lies behind seems to be ahead, and "
+                f"it divides by 0 to the side: atan2({unparse(given.left)}, {unparse(given.right)})",
             )
 
 
@@ -67,17 +66,17 @@ def _axis(node: ast.expr) -> str:
         left, right = _axis(node.left), _axis(node.right)
         return left if left == right else ""
     if isinstance(node, ast.Name | ast.Attribute):
-        match = re.search(r"(?:^[a-z]?|[._]|d|delta)([xy])$", ast.unparse(node))
+        match = re.search(r"(?:^[a-z]?|[._]|d|delta)([xy])$", unparse(node))
         return match[1] if match else ""
     return ""
 
 
 def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
     """Find `yaw = orientation.z`: the z of a quaternion is the sine of half the angle."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute):
+    for node in nodes_of(tree, ast.Assign):
+        if not isinstance(node.value, ast.Attribute):
             continue
-        target, value = ast.unparse(node.targets[0]), ast.unparse(node.value)
+        target, value = unparse(node.targets[0]), unparse(node.value)
         if re.search(r"(?:yaw|heading|theta|angle)$", target) and re.search(
             r"(?:orientation|rotation|\bq|quat)\.z$", value
         ):
@@ -93,8 +92,8 @@ def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
     for node in walk(tree):
         match node:
             case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
-                text = ast.unparse(node)
-                if ast.unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
+                text = unparse(node)
+                if unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
                     angle = -math.pi if text.startswith("-") else math.pi
                     right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
                     yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
@@ -103,30 +102,29 @@ def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
 def rays_from_the_end(tree: ast.AST) -> Iterator[Place]:
     """Find the bearing `scan.angle_max + i * scan.angle_increment`, which begins where a scan ends."""
     counters = {
-        ast.unparse(node.target.elts[0] if isinstance(node.target, ast.Tuple) else node.target)
-        for node in walk(tree)
-        if isinstance(node, ast.For | ast.comprehension)
-        and isinstance(node.iter, ast.Call)
-        and (ast.unparse(node.iter.func), len(node.iter.args)) in (("enumerate", 1), ("range", 1))
+        unparse(node.target.elts[0] if isinstance(node.target, ast.Tuple) else node.target)
+        for node in nodes_of(tree, ast.For, ast.comprehension)
+        if isinstance(node.iter, ast.Call)
+        and (unparse(node.iter.func), len(node.iter.args)) in (("enumerate", 1), ("range", 1))
     }
     for node in walk(tree):
         match node:
             case ast.BinOp(op=ast.Add(), left=first, right=ast.BinOp(op=ast.Mult(), left=one, right=other)):
-                texts = {ast.unparse(one), ast.unparse(other)}
-                end = ast.unparse(first).endswith("angle_max")
+                texts = {unparse(one), unparse(other)}
+                end = unparse(first).endswith("angle_max")
                 if end and texts & counters and any(each.endswith("angle_increment") for each in texts):
-                    code = ast.unparse(node)
+                    code = unparse(node)
                     right = code.replace("angle_max", "angle_min")
                     yield node.lineno, f"{code[:80]} begins where the scan ends: ray 0 looks to angle_min, {right[:80]}"
 
 
 def _of_a_frame(tree: ast.AST, value: ast.expr) -> bool:
     """Return whether a coordinate is that of a frame: made with a transform, or put into the x of a message."""
-    made = {ast.unparse(target) for target, each in assigned(tree) if each is value}
-    return "translation" in ast.unparse(value) or any(
-        isinstance(target, ast.Attribute) and target.attr == "x" and (each is value or ast.unparse(each) in made)
+    made = {unparse(target) for target, each in assigned(tree) if each is value}
+    return "translation" in unparse(value) or any(
+        isinstance(target, ast.Attribute) and target.attr == "x" and (each is value or unparse(each) in made)
         for target, each in assigned(tree)
-        if not (isinstance(target, ast.Attribute) and ast.unparse(target.value) == "self")
+        if not (isinstance(target, ast.Attribute) and unparse(target.value) == "self")
     )
 
 
@@ -134,21 +132,21 @@ def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
     """Find the x of a ray that is made with its sine, with the y that is made with its cosine."""
     for function in functions(tree):
         bearings = {
-            ast.unparse(target)
+            unparse(target)
             for target, value in assigned(function)
             if {"angle_min", "angle_increment"} <= {getattr(each, "attr", "") for each in walk(value)}
         }
         found: dict[tuple[str, str], ast.expr] = {}
         for target, value in assigned(function):
             waves = {
-                name for call, name in _calls(value) if name in ("sin", "cos") and ast.unparse(call.args[0]) in bearings
+                name for call, name in _calls(value) if name in ("sin", "cos") and unparse(call.args[0]) in bearings
             }
             if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
                 found.setdefault((_axis(target), waves.pop()), value)
         if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2 and _of_a_frame(tree, found["x", "sin"]):
             yield (
                 found["x", "sin"].lineno,
-                f"x = {ast.unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
+                f"x = {unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
                 "ahead, has its cosine, and y, to the left, its sine",
             )
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, assigned, called, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, called, last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.slips.language.own_calls import calls_of_own, parameters
 
 WHOLE = (255, 256)
@@ -30,8 +30,7 @@ def shares_as_bytes(tree: ast.AST) -> Iterator[Place]:
         if limit is not None and limit > 1 and _is_share(left, names):
             yield (
                 node.lineno,
-                f"{ast.unparse(node)[:60]} never holds: {ast.unparse(left)[:40]} was divided by 255, so it is between "
-                "0 and 1",
+                f"{unparse(node)[:60]} never holds: {unparse(left)[:40]} was divided by 255, so it is between 0 and 1",
             )
 
 
@@ -40,13 +39,13 @@ def _shares(tree: ast.AST) -> set[str]:
     given: dict[str, list[ast.expr]] = {}
     for target, value in assigned(tree):
         for each in target.elts if isinstance(target, ast.Tuple) else [target]:
-            given.setdefault(ast.unparse(each), []).append(value)
+            given.setdefault(unparse(each), []).append(value)
     for function, made in calls_of_own(tree):
         for call in made:
             for name, value in zip(parameters(function), call.args, strict=False):
-                if ast.unparse(value) != name:
+                if unparse(value) != name:
                     given.setdefault(name, []).append(value)
-    loops = [ast.unparse(node.target) for node in walk(tree) if isinstance(node, ast.For | ast.comprehension)]
+    loops = [unparse(node.target) for node in nodes_of(tree, ast.For, ast.comprehension)]
     names: set[str] = set()
     for _ in range(STEPS):
         names |= {name for name, values in given.items() if all(_is_share(each, names) for each in values)}
@@ -58,7 +57,7 @@ def _is_share(node: ast.expr, names: set[str]) -> bool:
         case ast.BinOp(op=ast.Div(), right=ast.Constant(value=whole)):
             return whole in WHOLE
         case ast.Name() | ast.Attribute():
-            return ast.unparse(node) in names
+            return unparse(node) in names
         case ast.Subscript(value=value):
             return _is_share(value, names)
         case ast.Call(func=ast.Attribute(value=owner) as method) if last_name(method) in SAME:

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
 
 MAKES = "euler_from_quaternion"
 HEADING = re.compile(r"yaw|heading|theta|\bth\b")
@@ -21,18 +21,18 @@ def other_angle(tree: ast.AST) -> Iterator[Place]:
     """Find `yaw, pitch, roll = euler_from_quaternion(q)`, and its first element taken for the heading."""
     if MAKES in {function.name for function in functions(tree)}:
         return  # one of the student's own may return them in any order
-    names = {ast.unparse(target) for target, value in assigned(tree) if _is_euler(value)}
-    for node in (each for each in walk(tree) if isinstance(each, ast.Assign)):
+    names = {unparse(target) for target, value in assigned(tree) if _is_euler(value)}
+    for node in nodes_of(tree, ast.Assign):
         target, value = node.targets[0], node.value
         if isinstance(target, ast.Tuple | ast.List) and len(target.elts) == len(ORDER):
-            if _is_euler(value) or ast.unparse(value) in names:
+            if _is_euler(value) or unparse(value) in names:
                 for place, each in enumerate(target.elts[:2]):
-                    if HEADING.search(ast.unparse(each).lower()):
-                        yield node.lineno, _said(ast.unparse(each), place)
-        elif isinstance(value, ast.Subscript) and (_is_euler(value.value) or ast.unparse(value.value) in names):
+                    if HEADING.search(unparse(each).lower()):
+                        yield node.lineno, _said(unparse(each), place)
+        elif isinstance(value, ast.Subscript) and (_is_euler(value.value) or unparse(value.value) in names):
             index = value.slice.value if isinstance(value.slice, ast.Constant) else None
-            if isinstance(index, int) and index in (0, 1) and HEADING.search(ast.unparse(target).lower()):
-                yield node.lineno, _said(ast.unparse(target), index)
+            if isinstance(index, int) and index in (0, 1) and HEADING.search(unparse(target).lower()):
+                yield node.lineno, _said(unparse(target), index)
 
 
 def _said(name: str, place: int) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, nodes_of, unparse, walk
 
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
 MASKS = frozenset({"isfinite", "isnan", "isinf", "logical_and", "logical_or", "logical_not"})
@@ -23,12 +23,12 @@ def numbered_after_filtering(tree: ast.AST) -> Iterator[Place]:
             match node:
                 case ast.BinOp(op=ast.Mult(), left=left, right=right):
                     for one, other in ((left, right), (right, left)):
-                        name = kinds.numbered(one) if "increment" in ast.unparse(other) else ""
+                        name = kinds.numbered(one) if "increment" in unparse(other) else ""
                         if name:
                             yield node.lineno, _words(one, name, kinds.left_out(name, node.lineno))
                             return
                 case ast.Call(args=[first, last, number, *_]) if last_name(node.func) == "linspace":
-                    ends = ast.unparse(first) + ast.unparse(last)
+                    ends = unparse(first) + unparse(last)
                     if "angle_min" in ends and "angle_max" in ends and (name := kinds.length_of(number)):
                         yield node.lineno, _words(node, name, kinds.left_out(name, node.lineno))
                         return
@@ -36,7 +36,7 @@ def numbered_after_filtering(tree: ast.AST) -> Iterator[Place]:
 
 def _words(node: ast.expr, name: str, line: int) -> str:
     return (
-        f"{ast.unparse(node)[:60]} numbers only the rays that line {line} has left in {name}, and those behind one "
+        f"{unparse(node)[:60]} numbers only the rays that line {line} has left in {name}, and those behind one "
         f"that was left out get the angle of another ray; {ADVICE}"
     )
 
@@ -46,7 +46,7 @@ class _Kinds:
 
     def __init__(self, function: ast.FunctionDef) -> None:
         self.known: list[tuple[int, str, str]] = []  # line, name, kind
-        nodes = (node for node in walk(function) if isinstance(node, ast.Assign | ast.For))
+        nodes = nodes_of(function, ast.Assign, ast.For)
         for node in sorted(nodes, key=lambda each: each.lineno):
             if isinstance(node, ast.For):
                 self._loop(node)
@@ -55,7 +55,7 @@ class _Kinds:
                 pairs = [(target, node.value)]
                 if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
                     pairs = list(zip(target.elts, node.value.elts, strict=False))
-                found = [(node.lineno, ast.unparse(name), self._kind(value, node.lineno)) for name, value in pairs]
+                found = [(node.lineno, unparse(name), self._kind(value, node.lineno)) for name, value in pairs]
                 self.known += found
 
     def _loop(self, loop: ast.For) -> None:
@@ -70,8 +70,8 @@ class _Kinds:
                     case ast.Expr(
                         value=ast.Call(func=ast.Attribute(value=of, attr="append"), args=[ast.Name() as kept])
                     ):
-                        if ast.unparse(kept) == ast.unparse(loop.target):
-                            self.known.append((each.lineno, ast.unparse(of), "filtered"))
+                        if unparse(kept) == unparse(loop.target):
+                            self.known.append((each.lineno, unparse(of), "filtered"))
 
     def _before(self, name: str, line: int) -> tuple[int, str]:
         """Return where a name got its last value before a line, and of which kind that is."""
@@ -85,12 +85,12 @@ class _Kinds:
     def _kind(self, node: ast.expr, line: int) -> str:
         match node:
             case ast.Name() | ast.Attribute():
-                return self._before(ast.unparse(node), line)[1]
+                return self._before(unparse(node), line)[1]
             case ast.Call(args=[_, given]) if last_name(node.func) == "filter":
                 return "filtered" if self._kind(given, line) in ("plain", "filtered") else ""
             case ast.Call(args=[given, *_]) if last_name(node.func) in COPIES:
                 return self._kind(given, line)
-            case ast.ListComp(elt=elt, generators=[loop]) if ast.unparse(elt) == ast.unparse(loop.target):
+            case ast.ListComp(elt=elt, generators=[loop]) if unparse(elt) == unparse(loop.target):
                 kind = self._kind(loop.iter, line)
                 return "filtered" if kind == "plain" and loop.ifs else kind
             case ast.Subscript(value=of, slice=index) if self._is_mask(index, line):
@@ -131,13 +131,13 @@ class _Kinds:
                 pass
             case _:
                 return ""
-        return ast.unparse(of) if self._kind(of, node.lineno) == "filtered" else ""
+        return unparse(of) if self._kind(of, node.lineno) == "filtered" else ""
 
 
 def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
     """Find `angle += scan.angle_increment` behind a `continue` of its loop, or below an `if` that looks at the ray."""
-    for loop in (node for node in walk(tree) if isinstance(node, ast.For)):
-        if not any(each in ast.unparse(loop.iter) for each in ("ranges", "zip(", "enumerate(", "range(")):
+    for loop in nodes_of(tree, ast.For):
+        if not any(each in unparse(loop.iter) for each in ("ranges", "zip(", "enumerate(", "range(")):
             continue
         left: ast.If | None = None
         for statement in loop.body:
@@ -148,7 +148,7 @@ def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
                 assert test is not None and isinstance(steps[0], ast.AugAssign)
                 yield (
                     steps[0].lineno,
-                    f"{ast.unparse(steps[0])} is not reached for a ray that line {test.lineno} leaves out, so all rays "
+                    f"{unparse(steps[0])} is not reached for a ray that line {test.lineno} leaves out, so all rays "
                     "behind it get the angle of another one: the angle grows with each ray, also with those that are "
                     "left out",
                 )
@@ -160,7 +160,7 @@ def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
 
 
 def _steps(node: ast.AST) -> bool:
-    return isinstance(node, ast.AugAssign) and "angle_increment" in ast.unparse(node.value)
+    return isinstance(node, ast.AugAssign) and "angle_increment" in unparse(node.value)
 
 
 LOOKS = (numbered_after_filtering, left_out_before_the_next_angle)

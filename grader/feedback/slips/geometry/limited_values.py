@@ -7,7 +7,7 @@ import operator
 from collections.abc import Callable, Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, set_to, walk
+from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, set_to, unparse, walk
 from gz_course.grader.feedback.slips.language.own_calls import calls_of_own, parameters
 
 Values = Mapping[str, float]
@@ -44,18 +44,18 @@ def value_as_limit(tree: ast.AST) -> Iterator[Place]:
             if len(names) == 2 and not _either_sign(arguments[open_names[0]], locals_of.get(id(call), {})):
                 continue
             first = f" (line {function.lineno})" if function is not CLIP else ""
-            prefix = f"{ast.unparse(call.func)}" if function is CLIP else function.name
+            prefix = f"{unparse(call.func)}" if function is CLIP else function.name
             yield (
                 call.lineno,
-                f"{_shortened(call)} does not limit {ast.unparse(arguments[open_names[0]])[:50]}: its arguments "
+                f"{_shortened(call)} does not limit {unparse(arguments[open_names[0]])[:50]}: its arguments "
                 f"are in the wrong order, it is {prefix}({', '.join(names)}){first}",
             )
 
 
 def _shortened(call: ast.Call) -> str:
     """Return a call with the end left out of each long argument."""
-    texts = [ast.unparse(each) for each in call.args]
-    return f"{ast.unparse(call.func)}({', '.join(text if len(text) < 40 else f'{text[:30]}...' for text in texts)})"
+    texts = [unparse(each) for each in call.args]
+    return f"{unparse(call.func)}({', '.join(text if len(text) < 40 else f'{text[:30]}...' for text in texts)})"
 
 
 def _of_numpy(call: ast.Call) -> bool:

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, calls, last_name
+from gz_course.grader.feedback.facts.syntax import Place, calls, last_name, unparse
 
 OTHER = {"min": "max", "max": "min"}
 LIMITS = 2  # arguments of min and of max
@@ -19,7 +19,7 @@ def exchanged(tree: ast.AST) -> Iterator[Place]:
         if name == "clip" and len(call.args) == LIMITS + 1 and _below(call.args[2], call.args[1], known):
             yield (
                 call.lineno,
-                f"{ast.unparse(call)[:60]} has its limits exchanged: the lower one comes first, clip(value, low, high)",
+                f"{unparse(call)[:60]} has its limits exchanged: the lower one comes first, clip(value, low, high)",
             )
         if name not in OTHER or len(call.args) != LIMITS or call.keywords:
             continue
@@ -31,7 +31,7 @@ def exchanged(tree: ast.AST) -> Iterator[Place]:
                 if _below(*pair, known):
                     yield (
                         call.lineno,
-                        f"{ast.unparse(call)[:60]} is always {ast.unparse(outer)}, whatever the value is: its limits "
+                        f"{unparse(call)[:60]} is always {unparse(outer)}, whatever the value is: its limits "
                         "are exchanged, it must be max(low, min(high, value))",
                     )
 
@@ -42,7 +42,7 @@ def _below(low: ast.expr, high: ast.expr, known: dict[str, int | float]) -> bool
     if first is not None and second is not None:
         return first < second
     negative = isinstance(low, ast.UnaryOp) and isinstance(low.op, ast.USub)
-    return negative and ast.unparse(low) == f"-{ast.unparse(high)}" and isinstance(high, ast.Name | ast.Attribute)
+    return negative and unparse(low) == f"-{unparse(high)}" and isinstance(high, ast.Name | ast.Attribute)
 
 
 LOOKS = (exchanged,)

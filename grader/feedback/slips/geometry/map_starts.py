@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, children, nodes_of, unparse, walk
 
 
 def first_position_subtracted(tree: ast.AST) -> Iterator[Place]:
@@ -13,45 +13,41 @@ def first_position_subtracted(tree: ast.AST) -> Iterator[Place]:
 
     Who adds the start again, or also uses the position as it is, may have a use for the difference.
     """
-    used = {each.value for each in walk(tree) if isinstance(each, ast.Constant) and isinstance(each.value, str)}
-    names = {each.id for each in walk(tree) if isinstance(each, ast.Name)}
+    used = {each.value for each in nodes_of(tree, ast.Constant) if isinstance(each.value, str)}
+    names = {each.id for each in nodes_of(tree, ast.Name)}
     if "OccupancyGrid" not in names or not used & {"odom", "/odom"}:
         return
-    parent = {child: node for node in walk(tree) for child in ast.iter_child_nodes(node)}
+    parent = {child: node for node in walk(tree) for child in children(node)}
     raw = _positions(tree)
     kept = {name for name in _kept_once(tree, raw) if _only_subtracted(name, tree, parent)}
     left: dict[ast.AST, ast.BinOp] = {}
-    for node in walk(tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and _root(node.right) in kept:
+    for node in nodes_of(tree, ast.BinOp):
+        if isinstance(node.op, ast.Sub) and _root(node.right) in kept:
             left[node.left] = node
     found = [left[each] for each in raw if each in left]
     if found and all(each in left or _is_kept(each, parent, kept) for each in raw):
         first = min(found, key=lambda each: (each.lineno, each.col_offset))
         yield (
             first.lineno,
-            f"{ast.unparse(first)[:60]} subtracts the first position from all others, so the map, and the place of the "
+            f"{unparse(first)[:60]} subtracts the first position from all others, so the map, and the place of the "
             "robot in it, are moved by the start: in the frame odom, positions of /odom are used as they are",
         )
 
 
 def _positions(tree: ast.AST) -> list[ast.AST]:
     """Return where x and y of a position of a pose are read, or names to which they were assigned."""
-    places = {ast.unparse(to) for to, value in assigned(tree) if ast.unparse(value).endswith("pose.position")}
+    places = {unparse(to) for to, value in assigned(tree) if unparse(value).endswith("pose.position")}
     read = [
         node
-        for node in walk(tree)
-        if isinstance(node, ast.Attribute) and node.attr in ("x", "y") and isinstance(node.ctx, ast.Load)
-        if ast.unparse(node.value) in places or ast.unparse(node.value).endswith("pose.position")
+        for node in nodes_of(tree, ast.Attribute)
+        if node.attr in ("x", "y") and isinstance(node.ctx, ast.Load)
+        if unparse(node.value) in places or unparse(node.value).endswith("pose.position")
     ]
     of_attributes = set(read)
     named = {to.id: value for to, value in assigned(tree) if isinstance(to, ast.Name) and value in of_attributes}
-    stored = [node.id for node in walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)]
+    stored = [node.id for node in nodes_of(tree, ast.Name) if isinstance(node.ctx, ast.Store)]
     named = {name: value for name, value in named.items() if stored.count(name) == 1}
-    loads = [
-        node
-        for node in walk(tree)
-        if isinstance(node, ast.Name) and node.id in named and isinstance(node.ctx, ast.Load)
-    ]
+    loads = [node for node in nodes_of(tree, ast.Name) if node.id in named and isinstance(node.ctx, ast.Load)]
     return [*(node for node in read if node not in named.values()), *loads]
 
 
@@ -59,7 +55,7 @@ def _root(node: ast.AST) -> str:
     """Return the attribute of self, or the name, of `self.start[0]` or `self.start.x`."""
     while isinstance(node, ast.Subscript | ast.Attribute):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self":
-            return ast.unparse(node)
+            return unparse(node)
         node = node.value
     return ""
 
@@ -71,8 +67,8 @@ def _kept_once(tree: ast.AST, raw: list[ast.AST]) -> set[str]:
     others: set[str] = set()
     once = {
         id(each)
-        for test in walk(tree)
-        if isinstance(test, ast.If) and _holds_once(test)
+        for test in nodes_of(tree, ast.If)
+        if _holds_once(test)
         for statement in test.body
         for each in walk(statement)
     }
@@ -101,7 +97,7 @@ def _holds_once(test: ast.If) -> bool:
 def _only_subtracted(name: str, tree: ast.AST, parent: dict[ast.AST, ast.AST]) -> bool:
     """Return whether an attribute is read only behind a minus sign, or in a test of whether it is set."""
     for node in walk(tree):
-        if not (isinstance(node, ast.Attribute) and ast.unparse(node) == name and isinstance(node.ctx, ast.Load)):
+        if not (isinstance(node, ast.Attribute) and unparse(node) == name and isinstance(node.ctx, ast.Load)):
             continue
         whole: ast.AST = node
         while isinstance(parent[whole], ast.Subscript | ast.Attribute) and whole is not getattr(

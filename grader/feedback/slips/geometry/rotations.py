@@ -9,7 +9,16 @@ import ast
 import math
 from collections.abc import Iterator, Mapping
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    assigned,
+    children,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 SOME = 0.7  # [rad] at which a pair is tried
 APART = 3  # lines between the two
@@ -23,13 +32,13 @@ def pairs(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, Pair]]:
     """Yield two sums near each other of cosines and sines of one angle, times the same two factors."""
     for function in functions(tree):
         waves = {
-            ast.unparse(target): value
+            unparse(target): value
             for target, value in assigned(function)
             if isinstance(value, ast.Call) and last_name(value.func) in ("cos", "sin")
         }
-        parts = {id(each) for node in walk(function) if _is_sum(node) for each in ast.iter_child_nodes(node)}
+        parts = {id(each) for node in walk(function) if _is_sum(node) for each in children(node)}
         sums = sorted(
-            (node for node in walk(function) if isinstance(node, ast.BinOp) and id(node) not in parts),
+            (node for node in nodes_of(function, ast.BinOp) if id(node) not in parts),
             key=lambda node: (node.lineno, node.col_offset, -(node.end_col_offset or 0)),
         )
         rows = [(node, *found) for node in sums if (found := _row(node, waves)) is not None]
@@ -49,7 +58,7 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
             one, two = row
             yield (
                 second.lineno,
-                f"{ast.unparse(first)[:50]} and {ast.unparse(second)[:50]} do not turn a point: it is "
+                f"{unparse(first)[:50]} and {unparse(second)[:50]} do not turn a point: it is "
                 f"{one} * cos - {two} * sin for x and {one} * sin + {two} * cos for y, if {one} is ahead and {two} "
                 "to the left",
             )
@@ -58,12 +67,12 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
 def changed_between(tree: ast.AST) -> Iterator[Place]:
     """Find `x = x * c - y * s` with `y = x * s + y * c` after it, which reads the x that has changed."""
     for function, ((first, row), (second, _)) in pairs(tree):
-        made = {id(each.value): ast.unparse(each.targets[0]) for each in walk(function) if isinstance(each, ast.Assign)}
+        made = {id(each.value): unparse(each.targets[0]) for each in nodes_of(function, ast.Assign)}
         changed, other = made.get(id(first), ""), made.get(id(second), "")
         if changed in row and other in row and changed != other:
             yield (
                 second.lineno,
-                f"{other} = {ast.unparse(second)[:50]} reads {changed}, which line {first.lineno} has changed: the "
+                f"{other} = {unparse(second)[:50]} reads {changed}, which line {first.lineno} has changed: the "
                 f"old one belongs here; assign both at once, {changed}, {other} = ..., ...",
             )
 
@@ -78,10 +87,10 @@ def _row(node: ast.BinOp, waves: Mapping[str, ast.expr]) -> tuple[str, Row] | No
     for term, sign in _terms(node, 1.0):
         if isinstance(term, ast.BinOp) and isinstance(term.op, ast.Mult):
             for wave, factor in ((term.left, term.right), (term.right, term.left)):
-                call = waves.get(ast.unparse(wave), wave)
+                call = waves.get(unparse(wave), wave)
                 if isinstance(call, ast.Call) and last_name(call.func) in ("cos", "sin") and len(call.args) == 1:
                     size = getattr(math, last_name(call.func))(SOME)
-                    found.append((ast.unparse(call.args[0]), ast.unparse(factor), sign * size))
+                    found.append((unparse(call.args[0]), unparse(factor), sign * size))
                     break
     if len(found) != 2 or found[0][0] != found[1][0] or found[0][1] == found[1][1]:
         return None

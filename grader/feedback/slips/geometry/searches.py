@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, nodes_of, unparse, walk
 
 LARGE = 50.0  # more than what a lidar of a small robot measures [m]
 LIMITS = frozenset({"range_min", "range_max"})
@@ -14,16 +14,16 @@ LIMITS = frozenset({"range_min", "range_max"})
 def begins_at_an_end(tree: ast.AST) -> Iterator[Place]:
     """Find a search for the smallest value that begins at 0, or for the largest that begins at a large number."""
     for function in functions(tree):
-        if ".ranges" not in ast.unparse(function):
+        if ".ranges" not in unparse(function):
             continue  # what is searched may be no distance
         first: dict[str, tuple[int, float]] = {}
-        for node in walk(function):
-            if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+        for node in nodes_of(function, ast.Assign):
+            if len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
                 name = node.targets[0].id
                 value = node.value.value if isinstance(node.value, ast.Constant) else None
                 if name not in first and type(value) in (int, float):
                     first[name] = node.lineno, float(value)  # type: ignore[arg-type]
-        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
+        for loop in nodes_of(function, ast.For):
             for name, smallest in _searched(loop):
                 line, value = first.get(name, (0, float("nan")))
                 if smallest and line and line < loop.lineno and value <= 0:
@@ -44,9 +44,7 @@ def _searched(loop: ast.For) -> Iterator[tuple[str, bool]]:
     """Yield each name that a loop sets to the value it is compared with, and whether to the smaller one."""
     for node in walk(loop):
         if isinstance(node, ast.If):
-            for each in walk(node.test):
-                if not isinstance(each, ast.Compare):
-                    continue
+            for each in nodes_of(node.test, ast.Compare):
                 sides = [each.left, *each.comparators]
                 for left, operator, right in zip(sides, each.ops, each.comparators, strict=False):
                     less = isinstance(operator, ast.Lt | ast.LtE)
@@ -56,29 +54,27 @@ def _searched(loop: ast.For) -> Iterator[tuple[str, bool]]:
                         if isinstance(name, ast.Name) and _sets(node, name.id, other):
                             yield name.id, smaller
         elif isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and len(node.value.args) == 2:
-            called = ast.unparse(node.value.func)
-            names = [ast.unparse(each) for each in node.value.args]
-            if called in ("min", "max") and ast.unparse(node.targets[0]) in names:
-                yield ast.unparse(node.targets[0]), called == "min"
+            called = unparse(node.value.func)
+            names = [unparse(each) for each in node.value.args]
+            if called in ("min", "max") and unparse(node.targets[0]) in names:
+                yield unparse(node.targets[0]), called == "min"
 
 
 def _sets(node: ast.If, name: str, value: ast.expr) -> bool:
     return any(
-        isinstance(each, ast.Assign)
-        and ast.unparse(each.targets[0]) == name
-        and ast.unparse(each.value) == ast.unparse(value)
+        isinstance(each, ast.Assign) and unparse(each.targets[0]) == name and unparse(each.value) == unparse(value)
         for each in node.body
     )
 
 
 def numbers_for_ranges(tree: ast.AST) -> Iterator[Place]:
     """Find the number of a ray that is compared with range_min or range_max."""
-    for loop in (node for node in walk(tree) if isinstance(node, ast.For | ast.comprehension)):
+    for loop in nodes_of(tree, ast.For, ast.comprehension):
         name = _number(loop)
         within = loop if isinstance(loop, ast.For) else tree
-        tests = [each for each in walk(within) if isinstance(each, ast.Compare)] if name else []
+        tests = [each for each in nodes_of(within, ast.Compare)] if name else []
         if isinstance(loop, ast.comprehension):
-            tests = [each for test in loop.ifs for each in walk(test) if isinstance(each, ast.Compare)]
+            tests = [each for test in loop.ifs for each in nodes_of(test, ast.Compare)]
         for test in tests:
             sides = [test.left, *test.comparators]
             limits = any(isinstance(side, ast.Attribute) and side.attr in LIMITS for side in sides)
@@ -95,8 +91,8 @@ def _number(loop: ast.For | ast.comprehension) -> str:
     """Return the name that counts in a loop over range(len(...)) or enumerate(...); empty if none does."""
     if not isinstance(loop.iter, ast.Call):
         return ""
-    called = ast.unparse(loop.iter.func)
-    if called == "range" and isinstance(loop.target, ast.Name) and "len(" in ast.unparse(loop.iter):
+    called = unparse(loop.iter.func)
+    if called == "range" and isinstance(loop.target, ast.Name) and "len(" in unparse(loop.iter):
         return loop.target.id
     if called == "enumerate" and isinstance(loop.target, ast.Tuple) and isinstance(loop.target.elts[0], ast.Name):
         return loop.target.elts[0].id
@@ -105,7 +101,7 @@ def _number(loop: ast.For | ast.comprehension) -> str:
 
 def relaxed_upwards(tree: ast.AST) -> Iterator[Place]:
     """Find `if new > cost[cell]: cost[cell] = new` in a search that goes on from the cell."""
-    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
+    for node in nodes_of(tree, ast.If):
         match node.test:
             case ast.Compare(left=new, ops=[ast.Gt() | ast.GtE()], comparators=[known]):
                 pass
@@ -118,14 +114,14 @@ def relaxed_upwards(tree: ast.AST) -> Iterator[Place]:
         stored = any(
             isinstance(target, ast.Subscript)
             and of is not None
-            and ast.unparse(target.value) == ast.unparse(of)
-            and ast.unparse(value) == ast.unparse(new)
+            and unparse(target.value) == unparse(of)
+            and unparse(value) == unparse(new)
             for target, value in assigned(node)
         )
         if stored and any(name in ("heappush", "put", "append") for _, name in calls(node)):
             yield (
                 node.lineno,
-                f"`{ast.unparse(node.test)[:60]}` takes a way that is longer than the one that is known, so the costs "
+                f"`{unparse(node.test)[:60]}` takes a way that is longer than the one that is known, so the costs "
                 "grow without end and the search goes on for ever: a way is better if its cost is less, <",
             )
 

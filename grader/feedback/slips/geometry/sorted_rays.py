@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, nodes_of, unparse, walk
 
 FINDS = frozenset({"index", "argmin", "nanargmin"})
 ELEMENTWISE = frozenset({"hypot", "abs", "sqrt", "fabs"})
@@ -22,11 +22,11 @@ def places_for_rays(tree: ast.AST) -> Iterator[Place]:
     """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
     for function in functions(tree):
         found = dict(_places(function, dict(_changed_lists(function))))
-        stored = [node.id for node in walk(function) if isinstance(node, ast.Name) and _is_store(node)]
-        for node in walk(function):
-            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
+        stored = [node.id for node in nodes_of(function, ast.Name) if _is_store(node)]
+        for node in nodes_of(function, ast.BinOp):
+            if not isinstance(node.op, ast.Mult):
                 continue
-            sides = ast.unparse(node.left), ast.unparse(node.right)
+            sides = unparse(node.left), unparse(node.right)
             for one, other in (sides, sides[::-1]):
                 if one in found and "increment" in other and stored.count(one) == 1:
                     line, what, how = found[one]
@@ -47,9 +47,9 @@ def _changed_lists(function: ast.FunctionDef) -> Iterator[tuple[str, str]]:
     for node in walk(function):
         match node:
             case ast.Assign(targets=[target], value=value) if how := _done(value, {}):
-                yield ast.unparse(target), how
+                yield unparse(target), how
             case ast.Expr(value=ast.Call(func=ast.Attribute(value=of, attr="sort" | "reverse" as attr))) if _plain(of):
-                yield ast.unparse(of), "sorted" if attr == "sort" else "reversed"
+                yield unparse(of), "sorted" if attr == "sort" else "reversed"
             case ast.For(body=[ast.If(body=inner)]) if name := _ranges_of(node):
                 for each in inner:
                     match each:
@@ -57,7 +57,7 @@ def _changed_lists(function: ast.FunctionDef) -> Iterator[tuple[str, str]]:
                             value=ast.Call(func=ast.Attribute(value=of, attr="append"), args=[ast.Name(id=a)])
                         ):
                             if a == name:
-                                yield ast.unparse(of), "filtered"
+                                yield unparse(of), "filtered"
 
 
 def _ranges_of(loop: ast.For) -> str:
@@ -67,11 +67,11 @@ def _ranges_of(loop: ast.For) -> str:
 
 def _done(node: ast.AST, names: dict[str, str]) -> str:
     """Return what was done to plain ranges in an expression; empty if nothing, or if it is another expression."""
-    if ast.unparse(node) in names:
-        return names[ast.unparse(node)]
+    if unparse(node) in names:
+        return names[unparse(node)]
     match node:
         case ast.Call(args=[given, *_], keywords=[]):
-            name = ast.unparse(node.func).rpartition(".")[2]
+            name = unparse(node.func).rpartition(".")[2]
             inner = _done(given, names)
             if name in COPIES:
                 return inner
@@ -83,7 +83,7 @@ def _done(node: ast.AST, names: dict[str, str]) -> str:
             if elt == of and _plain(loop.iter):
                 return "filtered" if loop.ifs else ""
         case ast.Subscript(value=of, slice=ast.Compare() | ast.Call() | ast.BinOp(op=ast.BitAnd())) if _plain(of):
-            return "filtered" if not isinstance(node.slice, ast.Call) or "isfinite" in ast.unparse(node.slice) else ""
+            return "filtered" if not isinstance(node.slice, ast.Call) or "isfinite" in unparse(node.slice) else ""
         case ast.Subscript(value=of, slice=ast.Slice(lower=None, upper=None, step=ast.UnaryOp(op=ast.USub()))):
             return "reversed" if _plain(of) else ""
     return ""
@@ -92,8 +92,8 @@ def _done(node: ast.AST, names: dict[str, str]) -> str:
 def _plain(node: ast.AST) -> bool:
     """Return whether an expression is the ranges of a scan, and nothing beside them."""
     if isinstance(node, ast.Call):
-        return ast.unparse(node.func).rpartition(".")[2] in COPIES and bool(node.args) and _plain(node.args[0])
-    return isinstance(node, ast.Attribute | ast.Name) and ast.unparse(node).rpartition(".")[2] == "ranges"
+        return unparse(node.func).rpartition(".")[2] in COPIES and bool(node.args) and _plain(node.args[0])
+    return isinstance(node, ast.Attribute | ast.Name) and unparse(node).rpartition(".")[2] == "ranges"
 
 
 def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[str, tuple[int, str, str]]]:
@@ -106,11 +106,11 @@ def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[
             ):
                 match call:
                     case ast.Call(func=ast.Name(id="enumerate"), args=[given]) if how := _done(given, names):
-                        yield ast.unparse(index), (call.lineno, ast.unparse(call), how)
+                        yield unparse(index), (call.lineno, unparse(call), how)
             case ast.Assign(targets=[target], value=ast.Call(func=ast.Attribute(attr=name, value=owner)) as call):
                 given = owner if name == "index" or not call.args else call.args[0]
                 if name in FINDS and (how := _done(given, names)):
-                    yield ast.unparse(target), (node.lineno, ast.unparse(call), how)
+                    yield unparse(target), (node.lineno, unparse(call), how)
 
 
 def places_in_masked(tree: ast.AST) -> Iterator[Place]:
@@ -120,11 +120,11 @@ def places_in_masked(tree: ast.AST) -> Iterator[Place]:
         found: dict[str, tuple[str, str]] = {}
         for node in walk(function):
             for target, value in assigned(node) if isinstance(node, ast.Assign) else ():
-                name = ast.unparse(target)
+                name = unparse(target)
                 if mask := _mask(value, masked):
                     masked[name] = mask
                 if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
-                    found[name] = (ast.unparse(value), mask)
+                    found[name] = (unparse(value), mask)
         for name, line in _times_increment(function):
             if name in found:
                 what, mask = found[name]
@@ -134,16 +134,16 @@ def places_in_masked(tree: ast.AST) -> Iterator[Place]:
                     "compute the angles of all rays, and leave the same ones out of both",
                 )
                 return
-        for node in (each for each in walk(function) if isinstance(each, ast.Subscript)):
-            of, place = ast.unparse(node.value), node.slice
-            what, mask = found.get(ast.unparse(place), ("", ""))
+        for node in nodes_of(function, ast.Subscript):
+            of, place = unparse(node.value), node.slice
+            what, mask = found.get(unparse(place), ("", ""))
             if isinstance(place, ast.Call) and _finds(place):
-                what, mask = ast.unparse(place), _mask(place.args[0], masked)
+                what, mask = unparse(place), _mask(place.args[0], masked)
             whole = isinstance(node.value, ast.Name) or of.endswith(".ranges")
             if mask and whole and of not in masked and isinstance(node.ctx, ast.Load):
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]}: {what[:50]} is a place among those that {mask[:30]} has left, and {of} "
+                    f"{unparse(node)[:60]}: {what[:50]} is a place among those that {mask[:30]} has left, and {of} "
                     f"has all rays, so it is another ray; use {of}[{mask[:30]}]",
                 )
                 return
@@ -151,26 +151,26 @@ def places_in_masked(tree: ast.AST) -> Iterator[Place]:
 
 def _times_increment(function: ast.FunctionDef) -> Iterator[tuple[str, int]]:
     """Yield each factor of an angle_increment, with its line."""
-    for node in walk(function):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
-            sides = ast.unparse(node.left), ast.unparse(node.right)
+    for node in nodes_of(function, ast.BinOp):
+        if isinstance(node.op, ast.Mult):
+            sides = unparse(node.left), unparse(node.right)
             yield from ((one, node.lineno) for one, other in (sides, sides[::-1]) if other.endswith("angle_increment"))
 
 
 def _finds(call: ast.Call) -> bool:
-    return ast.unparse(call.func).rpartition(".")[2] in ("argmin", "nanargmin", "argmax") and len(call.args) == 1
+    return unparse(call.func).rpartition(".")[2] in ("argmin", "nanargmin", "argmax") and len(call.args) == 1
 
 
 def _mask(node: ast.expr, masked: dict[str, str]) -> str:
     """Return by which mask an array is only a part, such as `ok` of `ranges[ok]`; empty if it is whole."""
-    text = ast.unparse(node)
+    text = unparse(node)
     if isinstance(node, ast.Call) and last_name(node.func) in ELEMENTWISE and node.args:
         masks = {_mask(each, masked) for each in node.args}
         return masks.pop() if len(masks) == 1 else ""
     if isinstance(node, ast.Subscript):
         part = node.slice
         name = isinstance(part, ast.Name) and not part.id.startswith(("i", "k", "n", "j"))
-        return ast.unparse(part) if name or isinstance(part, ast.Compare) else ""
+        return unparse(part) if name or isinstance(part, ast.Compare) else ""
     return masked.get(text, "")
 
 

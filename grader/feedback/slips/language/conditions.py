@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, is_none, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, is_none, nodes_of, unparse, walk
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
@@ -20,7 +20,7 @@ def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
         match node:
             case ast.Compare(left=low, ops=[ast.Lt() | ast.LtE(), ast.Lt() | ast.LtE()], comparators=[_, high]):
                 if _order(low, high, numbers) > 0:
-                    code = ast.unparse(node)[:70]
+                    code = unparse(node)[:70]
                     yield node.lineno, f"{code} never holds: the first bound is larger than the second one"
         if not isinstance(node, ast.BoolOp) or len(node.values) != 2:
             continue
@@ -29,7 +29,7 @@ def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
             continue
         (name, _, low), (_, _, high) = sorted(bounds, key=lambda bound: not bound[1])  # what is above `low` first
         order = _order(low, high, numbers)
-        code = ast.unparse(node)[:70]
+        code = unparse(node)[:70]
         if isinstance(node.op, ast.Or) and order < 0:
             yield (
                 node.lineno,
@@ -44,15 +44,15 @@ def the_same_bound(tree: ast.AST) -> Iterator[Place]:
     for node in walk(tree):
         match node:
             case ast.Compare(left=low, ops=[one, other], comparators=[_, high]) if type(one) in MIRRORED:
-                same = (type(one) in ABOVE) == (type(other) in ABOVE) and ast.unparse(low) == ast.unparse(high)
+                same = (type(one) in ABOVE) == (type(other) in ABOVE) and unparse(low) == unparse(high)
             case ast.BoolOp(op=ast.And(), values=[one, other]):
                 bounds = [bound for each in (one, other) if (bound := _bound(each))]
-                texts = [(bound[0], ast.unparse(bound[2])) for bound in bounds]
+                texts = [(bound[0], unparse(bound[2])) for bound in bounds]
                 same = len(texts) == 2 and texts[0] == texts[1] and bounds[0][1] != bounds[1][1]
             case _:
                 continue
         if same:
-            code = ast.unparse(node)[:70]
+            code = unparse(node)[:70]
             yield node.lineno, f"{code} has the same bound twice, so no other value than that is between: one is wrong"
 
 
@@ -65,7 +65,7 @@ def _bound(node: ast.expr) -> tuple[str, bool, ast.expr] | None:
         return None
     if isinstance(left, ast.Constant) or _is_bound(left):
         left, kind, right = right, MIRRORED[kind], left
-    return ast.unparse(left), kind in ABOVE, right
+    return unparse(left), kind in ABOVE, right
 
 
 def _is_bound(node: ast.expr) -> bool:
@@ -85,9 +85,9 @@ def none_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.start is None: self.begin = now` in a file where nothing else than None is put into self.start."""
     values: dict[str, list[ast.expr]] = {}
     for target, value in assigned(tree):
-        values.setdefault(ast.unparse(target).rpartition(".")[2], []).append(value)
+        values.setdefault(unparse(target).rpartition(".")[2], []).append(value)
     others = {
-        ast.unparse(target).rpartition(".")[2]
+        unparse(target).rpartition(".")[2]
         for node in walk(tree)
         for target in [getattr(node, "target", None), *[getattr(each, "optional_vars", None) for each in _items(node)]]
         if isinstance(target, ast.expr) and not isinstance(node, ast.AnnAssign)
@@ -95,12 +95,12 @@ def none_for_ever(tree: ast.AST) -> Iterator[Place]:
     for node in walk(tree):
         name = _asked(node.test) if isinstance(node, ast.If) else ""
         last = name.rpartition(".")[2]
-        if not name.startswith("self.") or last in others or "setattr" in ast.unparse(tree):
+        if not name.startswith("self.") or last in others or "setattr" in unparse(tree):
             continue
         given = values.get(last, [])
         if not given or not all(is_none(each) for each in given):
             continue
-        instead = [ast.unparse(target) for each in node.body for target, _ in assigned(each)]  # type: ignore[attr-defined]
+        instead = [unparse(target) for each in node.body for target, _ in assigned(each)]  # type: ignore[attr-defined]
         if instead:
             yield (
                 node.lineno,  # type: ignore[attr-defined]
@@ -117,9 +117,9 @@ def _asked(test: ast.expr) -> str:
     """Return the name of `NAME is None` and `not NAME`; empty for other conditions."""
     match test:
         case ast.Compare(left=left, ops=[ast.Is() | ast.Eq()], comparators=[ast.Constant(value=None)]):
-            return ast.unparse(left)
+            return unparse(left)
         case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute() as operand):
-            return ast.unparse(operand)
+            return unparse(operand)
     return ""
 
 
@@ -136,8 +136,8 @@ def none_again(tree: ast.AST) -> Iterator[Place]:
                     "to last from call to call is set once, outside of the function that is called (self.NAME)",
                 )
                 return
-            changed = {ast.unparse(target) for target, _ in assigned(statement)}
-            changed |= {ast.unparse(each.target) for each in walk(statement) if hasattr(each, "target")}
+            changed = {unparse(target) for target, _ in assigned(statement)}
+            changed |= {unparse(each.target) for each in walk(statement) if hasattr(each, "target")}
             none = {each: line for each, line in none.items() if each not in changed}
             match statement:
                 case ast.Assign(targets=[ast.Name(id=made)], value=ast.Constant(value=None)):
@@ -147,8 +147,8 @@ def none_again(tree: ast.AST) -> Iterator[Place]:
 def implied(tree: ast.AST) -> Iterator[Place]:
     """Find `elif x >= 5:` below `if x >= 0:`, which leaves nothing for it."""
     numbers = named_numbers(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.If) or len(node.orelse) != 1 or not isinstance(node.orelse[0], ast.If):
+    for node in nodes_of(tree, ast.If):
+        if len(node.orelse) != 1 or not isinstance(node.orelse[0], ast.If):
             continue
         other = node.orelse[0]
         one, two = _bound(node.test), _bound(other.test)
@@ -160,7 +160,7 @@ def implied(tree: ast.AST) -> Iterator[Place]:
         if (wide < narrow) == one[1]:
             yield (
                 other.lineno,
-                f"elif {ast.unparse(other.test)[:60]}: is never reached: where it holds, {ast.unparse(node.test)[:60]} "
+                f"elif {unparse(other.test)[:60]}: is never reached: where it holds, {unparse(node.test)[:60]} "
                 "holds, too, and the first condition that holds is taken; ask for the narrower one first",
             )
 
@@ -172,12 +172,12 @@ def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
         for statement in function.body:
             match statement:
                 case ast.Assign(targets=[target], value=ast.BinOp(left=begin, op=ast.Add())):
-                    ends[ast.unparse(target)] = statement.lineno, ast.unparse(begin)
+                    ends[unparse(target)] = statement.lineno, unparse(begin)
                     continue
-            for node in walk(statement):
-                if not isinstance(node, ast.Compare) or len(node.ops) != 1 or type(node.ops[0]) not in MIRRORED:
+            for node in nodes_of(statement, ast.Compare):
+                if len(node.ops) != 1 or type(node.ops[0]) not in MIRRORED:
                     continue
-                sides = [ast.unparse(node.left), ast.unparse(node.comparators[0])]
+                sides = [unparse(node.left), unparse(node.comparators[0])]
                 for one, other in (sides, sides[::-1]):
                     if one in ends and ends[one][1] == other and "now" in other:
                         yield (
@@ -190,19 +190,19 @@ def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
 
 def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
     """Find `if late and not self.moving:` where self.moving begins as True and only that block changes it."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         changes: dict[str, list[tuple[ast.expr, ast.expr]]] = {}
         for target, value in assigned(owner):
-            changes.setdefault(ast.unparse(target), []).append((target, value))
-        for node in walk(owner):
-            if not isinstance(node, ast.If) or not isinstance(node.test, ast.BoolOp):
+            changes.setdefault(unparse(target), []).append((target, value))
+        for node in nodes_of(owner, ast.If):
+            if not isinstance(node.test, ast.BoolOp):
                 continue
             if not isinstance(node.test.op, ast.And):
                 continue
             inside = {id(each) for statement in node.body for each in walk(statement)}
             for part in node.test.values:
                 negated = isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not)
-                name = ast.unparse(part.operand if isinstance(part, ast.UnaryOp) else part)
+                name = unparse(part.operand if isinstance(part, ast.UnaryOp) else part)
                 others = [value for target, value in changes.get(name, []) if id(target) not in inside]
                 if len(others) == 1 and len(changes[name]) > 1 and isinstance(others[0], ast.Constant):
                     first = others[0].value

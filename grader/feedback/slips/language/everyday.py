@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.slips.nodes.callbacks import handed_over
 
 LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
@@ -19,7 +19,7 @@ MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 
 def constructors(tree: ast.AST) -> Iterator[Place]:
-    for each in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for each in nodes_of(tree, ast.ClassDef):
         for node in each.body:
             wrong = isinstance(node, ast.FunctionDef) and node.name.strip("_") in ("init", "int", "ini")
             if isinstance(node, ast.FunctionDef) and wrong and node.name.startswith("_") and node.name != "__init__":
@@ -46,9 +46,9 @@ def main_not_called(tree: ast.Module) -> Iterator[Place]:
 def not_called(tree: ast.AST) -> Iterator[Place]:
     """Find a statement that only names a function, such as `self.timer.cancel`, or a method of the file."""
     own = {f"self.{function.name}" for function in functions(tree) if not function.decorator_list}
-    for node in walk(tree):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Attribute | ast.Name):
-            name = ast.unparse(node.value)
+    for node in nodes_of(tree, ast.Expr):
+        if isinstance(node.value, ast.Attribute | ast.Name):
+            name = unparse(node.value)
             if name.rpartition(".")[2] in ACTIONS | {"main"} or name in own:
                 yield node.lineno, f"{name} without brackets names the function and does not call it: {name}(...)"
 
@@ -63,7 +63,7 @@ def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
         period = number(given, known)
         if name != "create_timer" or period is None or given is None:
             continue
-        code = ast.unparse(given)
+        code = unparse(given)
         value = f"{code}, which is {period:g}," if not isinstance(given, ast.Constant) else f"{code},"
         if period >= LONGEST_PERIOD:
             yield (
@@ -85,7 +85,7 @@ def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
 def long_sleeps(tree: ast.AST) -> Iterator[Place]:
     """Find a sleep of minutes with a publish() behind it in its block, which hardly waits for that."""
     known = named_numbers(tree)
-    for block in (node.body for node in walk(tree) if isinstance(node, ast.Module | ast.FunctionDef)):
+    for block in (node.body for node in nodes_of(tree, ast.Module, ast.FunctionDef)):
         for place, statement in enumerate(block):
             call = statement.value if isinstance(statement, ast.Expr) else None
             if not isinstance(call, ast.Call) or last_name(call.func) != "sleep" or not call.args:
@@ -95,7 +95,7 @@ def long_sleeps(tree: ast.AST) -> Iterator[Place]:
             if seconds is not None and seconds >= LONGEST_PERIOD and published:
                 yield (
                     call.lineno,
-                    f"{ast.unparse(call)} takes seconds: what follows runs only after {seconds / 60:.0f} minutes; "
+                    f"{unparse(call)} takes seconds: what follows runs only after {seconds / 60:.0f} minutes; "
                     f"{seconds:g} ms are {seconds / 1000:g}",
                 )
 
@@ -106,7 +106,7 @@ def decimal_commas(tree: ast.AST) -> Iterator[Place]:
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
             bare = node.value.col_offset == node.value.elts[0].col_offset if node.value.elts else False  # no brackets
             values = node.value.elts if bare and isinstance(node.targets[0], ast.Name | ast.Attribute) else []
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("create_timer") and len(node.args) >= 3:
+        elif isinstance(node, ast.Call) and unparse(node.func).endswith("create_timer") and len(node.args) >= 3:
             values = node.args[:2]
         if _two_whole(values):
             yield values[0].lineno, _comma(values)
@@ -117,7 +117,7 @@ def _two_whole(values: list[ast.expr]) -> bool:
 
 
 def _comma(values: list[ast.expr]) -> str:
-    ahead, behind = (ast.unparse(value) for value in values)
+    ahead, behind = (unparse(value) for value in values)
     return f"{ahead}, {behind} are two numbers: Python writes the decimal point as a point, {ahead}.{behind}"
 
 
@@ -131,7 +131,7 @@ def sets_for_numbers(tree: ast.AST) -> Iterator[Place]:
             values = [each.value for each in node.keywords if each.arg in MESSAGE_FIELDS]
         for value in values:
             if isinstance(value, ast.Set) and len(value.elts) == 1:
-                inside = ast.unparse(value.elts[0])
+                inside = unparse(value.elts[0])
                 yield value.lineno, f"{{{inside}}} is a set with one element, not its value: write {inside}"
 
 
@@ -147,16 +147,16 @@ def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
 
 
 def strengths(tree: ast.AST) -> Iterator[Place]:
-    for node in walk(tree):
-        if isinstance(node, ast.Attribute) and node.attr == "intensities":
+    for node in nodes_of(tree, ast.Attribute):
+        if node.attr == "intensities":
             yield node.lineno, "intensities are how strong the echoes are; how far the points are [m] is in ranges"
 
 
 def stray_methods(tree: ast.AST) -> Iterator[Place]:
     """Find a function with the parameter self that stands outside of a class, because of its indentation."""
-    owned = {id(node) for each in walk(tree) if isinstance(each, ast.ClassDef) for node in each.body}
-    for node in walk(tree):
-        if not isinstance(node, ast.FunctionDef) or id(node) in owned or node.decorator_list:
+    owned = {id(node) for each in nodes_of(tree, ast.ClassDef) for node in each.body}
+    for node in nodes_of(tree, ast.FunctionDef):
+        if id(node) in owned or node.decorator_list:
             continue
         if [each.arg for each in node.args.args[:1]] == ["self"]:
             yield (
@@ -169,17 +169,15 @@ def stray_methods(tree: ast.AST) -> Iterator[Place]:
 def blocking(tree: ast.AST) -> Iterator[Place]:
     """Find an endless loop, or a Rate, inside a callback: while it runs, no other callback and no clock does."""
     handed = {
-        ast.unparse(given).rpartition(".")[2]
+        unparse(given).rpartition(".")[2]
         for call, given in handed_over(tree)
-        if ast.unparse(call.func).endswith((".create_timer", ".create_subscription"))
+        if unparse(call.func).endswith((".create_timer", ".create_subscription"))
     }
-    for node in walk(tree):
-        if not isinstance(node, ast.FunctionDef) or node.name not in handed:
+    for node in nodes_of(tree, ast.FunctionDef):
+        if node.name not in handed:
             continue
         rates = [call for call, name in calls(node) if name == "create_rate"]
-        for inner in walk(node):
-            if not isinstance(inner, ast.While):
-                continue
+        for inner in nodes_of(node, ast.While):
             names = {name for _, name in calls(inner)}
             if names & {"spin_once", "spin_some"}:
                 continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, nodes_of, unparse, walk
 
 EMPTY = ("{}", "dict()")
 ASKS = ("get", "pop")
@@ -32,25 +32,25 @@ def keys_that_nothing_sets(tree: ast.AST) -> Iterator[Place]:
 def _begun_empty(tree: ast.AST) -> list[str]:
     """Return the dictionaries of the node that are empty at first, and are used by their keys alone."""
     made: dict[str, list[str]] = {}
-    for node in walk(tree):
-        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+    for node in nodes_of(tree, ast.Assign, ast.AnnAssign):
+        if node.value is not None:
             for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
                 if isinstance(target, ast.Attribute):
-                    made.setdefault(ast.unparse(target), []).append(ast.unparse(node.value))
+                    made.setdefault(unparse(target), []).append(unparse(node.value))
     return [name for name, values in made.items() if set(values) <= set(EMPTY) and _by_keys_alone(tree, name)]
 
 
 def _by_keys_alone(tree: ast.AST, name: str) -> bool:
     """Return whether a dictionary is handed to nobody, and no method of it sets keys."""
-    known = {id(node.value) for node in walk(tree) if isinstance(node, ast.Subscript | ast.Attribute)}
-    known |= {id(target) for node in walk(tree) if isinstance(node, ast.Assign) for target in node.targets}
-    known |= {id(node.target) for node in walk(tree) if isinstance(node, ast.AnnAssign)}
-    known |= {id(each) for node in walk(tree) if isinstance(node, ast.Compare) for each in node.comparators}
+    known = {id(node.value) for node in nodes_of(tree, ast.Subscript, ast.Attribute)}
+    known |= {id(target) for node in nodes_of(tree, ast.Assign) for target in node.targets}
+    known |= {id(node.target) for node in nodes_of(tree, ast.AnnAssign)}
+    known |= {id(each) for node in nodes_of(tree, ast.Compare) for each in node.comparators}
     known |= {id(each) for call, called in calls(tree) if called == "len" for each in call.args}
     for node in walk(tree):
-        if isinstance(node, ast.Attribute) and ast.unparse(node) == name and id(node) not in known:
+        if isinstance(node, ast.Attribute) and unparse(node) == name and id(node) not in known:
             return False
-        if isinstance(node, ast.Attribute) and node.attr == "update" and ast.unparse(node.value) == name:
+        if isinstance(node, ast.Attribute) and node.attr == "update" and unparse(node.value) == name:
             return False
     return True
 
@@ -62,9 +62,9 @@ def _stored(tree: ast.AST, name: str) -> list[tuple[str | None, int]]:
         parameters = [each.arg for each in function.args.args]
         for node in walk(function):
             key = None
-            if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store) and ast.unparse(node.value) == name:
+            if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store) and unparse(node.value) == name:
                 key = node.slice
-            elif isinstance(node, ast.Call) and ast.unparse(node.func) == f"{name}.setdefault" and node.args:
+            elif isinstance(node, ast.Call) and unparse(node.func) == f"{name}.setdefault" and node.args:
                 key = node.args[0]
             if isinstance(key, ast.Name) and key.id in parameters:
                 found += _handed(tree, function, parameters.index(key.id), key.id)
@@ -100,9 +100,9 @@ def _read(node: ast.AST, name: str) -> str | None:
     """Return the text by which a dictionary is read; None if a node is something else."""
     match node:
         case ast.Subscript(value=owner, slice=ast.Constant(value=str() as key), ctx=ast.Load()):
-            return key if ast.unparse(owner) == name else None
+            return key if unparse(owner) == name else None
         case ast.Call(func=ast.Attribute(value=owner, attr=method), args=[ast.Constant(value=str() as key), *_]):
-            return key if method in ASKS and ast.unparse(owner) == name else None
+            return key if method in ASKS and unparse(owner) == name else None
     return None
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from gz_course.grader.feedback.facts.syntax import Place, walk
+from gz_course.grader.feedback.facts.syntax import Place, children, nodes_of, unparse, walk
 
 Function = ast.Lambda | ast.FunctionDef
 # What keeps a function that it is given, and calls it later. `sorted` and `map` call it at once.
@@ -41,7 +41,7 @@ def _in_loop(parts: Sequence[ast.AST], bound: set[str]) -> Iterator[Place]:
     nodes = [each for part in parts for each in _own(part)]
     named = {each.name: each for each in nodes if isinstance(each, ast.FunctionDef)}
     for call in (each for each in nodes if isinstance(each, ast.Call)):
-        if ast.unparse(call.func).rpartition(".")[2] not in LATER:
+        if unparse(call.func).rpartition(".")[2] not in LATER:
             continue
         for given in [*call.args, *(each.value for each in call.keywords)]:
             function = named.get(given.id) if isinstance(given, ast.Name) else given
@@ -65,7 +65,7 @@ def _own(part: ast.AST) -> Iterator[ast.AST]:
     yield part
     if isinstance(part, ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
         return
-    for child in ast.iter_child_nodes(part):
+    for child in children(part):
         yield from _own(child)
 
 
@@ -75,16 +75,14 @@ def _stored(part: ast.AST) -> set[str]:
 
 def _read(function: Function) -> set[str]:
     body = function.body if isinstance(function.body, list) else [function.body]
-    names = (each for part in body for each in walk(part) if isinstance(each, ast.Name))
+    names = (each for part in body for each in nodes_of(part, ast.Name))
     return {each.id for each in names if isinstance(each.ctx, ast.Load)}
 
 
 def _own_names(function: Function) -> set[str]:
     """Return the names that a function binds itself: its parameters, and what it assigns."""
-    bound = {each.arg for each in walk(function) if isinstance(each, ast.arg)}
-    return bound | {
-        each.id for each in walk(function) if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)
-    }
+    bound = {each.arg for each in nodes_of(function, ast.arg)}
+    return bound | {each.id for each in nodes_of(function, ast.Name) if isinstance(each.ctx, ast.Store)}
 
 
 LOOKS = (late_bound,)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assignments, walk
+from gz_course.grader.feedback.facts.syntax import Place, assignments, nodes_of, unparse, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
-def _classes(tree: ast.AST) -> Iterator[ast.ClassDef]:
-    return (node for node in walk(tree) if isinstance(node, ast.ClassDef))
+def _classes(tree: ast.AST) -> tuple[ast.ClassDef, ...]:
+    return nodes_of(tree, ast.ClassDef)
 
 
 def _methods(owner: ast.ClassDef) -> list[Function]:
@@ -21,8 +21,8 @@ def _methods(owner: ast.ClassDef) -> list[Function]:
 def _attributes(node: ast.AST, context: type[ast.expr_context]) -> dict[str, int]:
     """Return the attributes of self that are read or set within a node, with the line of the first."""
     found: dict[str, int] = {}
-    for each in walk(node):
-        if isinstance(each, ast.Attribute) and isinstance(each.ctx, context) and ast.unparse(each.value) == "self":
+    for each in nodes_of(node, ast.Attribute):
+        if isinstance(each.ctx, context) and unparse(each.value) == "self":
             found.setdefault(each.attr, each.lineno)
     return found
 
@@ -32,13 +32,13 @@ def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
     for owner in _classes(tree):
         read, never_set = _attributes(owner, ast.Load), _never_changed(owner)
         for method in _methods(owner):
-            kept = {name for node in walk(method) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names}
-            names = [node for node in walk(method) if isinstance(node, ast.Name)]
+            kept = {name for node in nodes_of(method, ast.Global, ast.Nonlocal) for name in node.names}
+            names = [node for node in nodes_of(method, ast.Name)]
             loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)} | kept
             for target, node in assignments(method):
                 if not isinstance(target, ast.Name) or target.id not in read:
                     continue
-                lost = target.id in never_set - kept and f"self.{target.id}" not in ast.unparse(node.value)
+                lost = target.id in never_set - kept and f"self.{target.id}" not in unparse(node.value)
                 if target.id in loaded and not lost:
                     continue
                 yield (
@@ -54,8 +54,8 @@ def _never_changed(owner: ast.ClassDef) -> set[str]:
     for node in walk(owner):
         for target in node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]:
             for each in walk(target) if isinstance(target, ast.expr) else ():
-                if isinstance(each, ast.Attribute) and ast.unparse(each.value) == "self":
-                    value = ast.unparse(node.value) if isinstance(node, ast.Assign) else ""
+                if isinstance(each, ast.Attribute) and unparse(each.value) == "self":
+                    value = unparse(node.value) if isinstance(node, ast.Assign) else ""
                     found.setdefault(each.attr, []).append(value)
     flags = {name for name, values in found.items() if values in (["True"], ["False"])}
     return flags | {name for name, values in found.items() if set(values) == {"None"}}
@@ -65,13 +65,11 @@ def hidden_methods(tree: ast.AST) -> Iterator[Place]:
     """Find an attribute with the name of a method of the same class, which is then no method any more."""
     for owner in _classes(tree):
         methods = {method.name: method.lineno for method in _methods(owner) if not method.decorator_list}
-        for node in walk(owner):
-            if not isinstance(node, ast.Assign):
-                continue
+        for node in nodes_of(owner, ast.Assign):
             for target in node.targets:
-                name = ast.unparse(target).removeprefix("self.")
-                own = ast.unparse(target) == f"self.{name}"
-                if own and name in methods and f"self.{name}" not in ast.unparse(node.value):
+                name = unparse(target).removeprefix("self.")
+                own = unparse(target) == f"self.{name}"
+                if own and name in methods and f"self.{name}" not in unparse(node.value):
                     yield (
                         node.lineno,
                         f"self.{name} = ... hides the method {name} of line {methods[name]}: self.{name} is then this "
@@ -96,12 +94,12 @@ def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
     """Find a counter or flag that is set on the class and read on the object, or the other way round."""
     for owner in _classes(tree):
         objects = _attributes(owner, ast.Store)
-        sums = [node.target for node in walk(owner) if isinstance(node, ast.AugAssign)]
+        sums = [node.target for node in nodes_of(owner, ast.AugAssign)]
         for target in [*sums, *(target for target, _ in assignments(owner))]:
-            if isinstance(target, ast.Attribute) and ast.unparse(target.value) == owner.name and target.attr in objects:
+            if isinstance(target, ast.Attribute) and unparse(target.value) == owner.name and target.attr in objects:
                 yield (
                     target.lineno,
-                    f"{ast.unparse(target)} is a variable of the class; self.{target.attr}, set in line "
+                    f"{unparse(target)} is a variable of the class; self.{target.attr}, set in line "
                     f"{objects[target.attr]}, is another one",
                 )
 
@@ -109,17 +107,13 @@ def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
 def one_name_for_two_timers(tree: ast.AST) -> Iterator[Place]:
     """Find two timers that are given the same name, of which cancel() then ends the second one only."""
     for owner in _classes(tree):
-        cancelled = {
-            ast.unparse(node.value)
-            for node in walk(owner)
-            if isinstance(node, ast.Attribute) and node.attr in ("cancel", "reset")
-        }
+        cancelled = {unparse(node.value) for node in nodes_of(owner, ast.Attribute) if node.attr in ("cancel", "reset")}
         for method in _methods(owner):
             made: dict[str, int] = {}
             for statement in method.body:
-                if not isinstance(statement, ast.Assign) or "create_timer" not in ast.unparse(statement.value):
+                if not isinstance(statement, ast.Assign) or "create_timer" not in unparse(statement.value):
                     continue
-                name = ast.unparse(statement.targets[0])
+                name = unparse(statement.targets[0])
                 if name in made and name in cancelled:
                     yield (
                         statement.lineno,
@@ -143,13 +137,13 @@ def local_for_global(tree: ast.AST) -> Iterator[Place]:
     every = [node for node in walk(tree) if isinstance(node, Function)]
     reads: dict[str, int] = {}
     for function in every:
-        names = [node for node in walk(function) if isinstance(node, ast.Name)]
+        names = [node for node in nodes_of(function, ast.Name)]
         own = {node.id for node in names if isinstance(node.ctx, ast.Store)} - _declared(function)
         for node in names:
             if isinstance(node.ctx, ast.Load) and node.id in module - own - _arguments(function):
                 reads.setdefault(node.id, node.lineno)
     for function in every:
-        names = [node for node in walk(function) if isinstance(node, ast.Name)]
+        names = [node for node in nodes_of(function, ast.Name)]
         loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
         for target, statement in assignments(function):
             name = target.id if isinstance(target, ast.Name) else ""
@@ -163,12 +157,12 @@ def local_for_global(tree: ast.AST) -> Iterator[Place]:
 
 def _declared(function: Function) -> set[str]:
     return {
-        name for node in walk(function) if isinstance(node, ast.Global | ast.Nonlocal) for name in node.names
+        name for node in nodes_of(function, ast.Global, ast.Nonlocal) for name in node.names
     }  # fmt: skip
 
 
 def _arguments(function: Function) -> set[str]:
-    return {each.arg for each in walk(function) if isinstance(each, ast.arg)}
+    return {each.arg for each in nodes_of(function, ast.arg)}
 
 
 LOOKS = (

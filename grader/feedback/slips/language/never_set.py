@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, is_none, walk
+from gz_course.grader.feedback.facts.syntax import Place, is_none, nodes_of, unparse, walk
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 LEAVES = ast.Return | ast.Continue | ast.Raise
@@ -40,8 +40,8 @@ def _values(tree: ast.AST) -> tuple[set[str], dict[str, list[str]]]:
     none: dict[str, bool] = {}
     set_in: dict[str, list[str]] = {}
     for function in _functions(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.Attribute) or not isinstance(node.ctx, ast.Store):
+        for node in nodes_of(function, ast.Attribute):
+            if not isinstance(node.ctx, ast.Store):
                 continue
             made = next((each for each in walk(function) if _makes(each, node)), None)
             value = getattr(made, "value", None)
@@ -50,8 +50,8 @@ def _values(tree: ast.AST) -> tuple[set[str], dict[str, list[str]]]:
             if function.name != "__init__":
                 set_in.setdefault(node.attr, []).append(function.name)
     own = {id(each) for function in _functions(tree) for each in walk(function)}
-    for node in walk(tree):
-        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+    for node in nodes_of(tree, ast.Attribute):
+        if isinstance(node.ctx, ast.Store):
             inside = id(node) in own and isinstance(node.value, ast.Name) and node.value.id == "self"
             none[node.attr] = none.get(node.attr, True) and inside
     return {name for name, only in none.items() if only}, set_in
@@ -99,8 +99,8 @@ def previous_stays(tree: ast.AST) -> Iterator[Place]:
             if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute):
                 first[node.targets[0].attr] = node.value
     for function in _functions(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub) or function.name == "__init__":
+        for node in nodes_of(function, ast.BinOp):
+            if not isinstance(node.op, ast.Sub) or function.name == "__init__":
                 continue
             for name in _own(node.right):
                 value = first.get(name)
@@ -108,8 +108,8 @@ def previous_stays(tree: ast.AST) -> Iterator[Place]:
                 if number and PREVIOUS.search(name) and set_in.get(name) == ["__init__"]:
                     yield (
                         node.lineno,
-                        f"self.{name} stays {ast.unparse(first[name])}, because only __init__ sets it, so "
-                        f"{ast.unparse(node)[:60]} is no change: set it to the new value at the end of each call",
+                        f"self.{name} stays {unparse(first[name])}, because only __init__ sets it, so "
+                        f"{unparse(node)[:60]} is no change: set it to the new value at the end of each call",
                     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assignments, called, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, assignments, called, functions, nodes_of, unparse, walk
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 FUNCTIONS = frozenset({"rclpy.ok", "math.isfinite", "math.isnan", "math.isinf", "isfinite", "isnan", "isinf"})
@@ -23,10 +23,8 @@ MESSAGES = frozenset({
 
 def thrown_away(tree: ast.AST) -> Iterator[Place]:
     """Find a comparison or an arithmetic expression that is a statement of its own."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Expr):
-            continue
-        code = ast.unparse(node.value)[:60]
+    for node in nodes_of(tree, ast.Expr):
+        code = unparse(node.value)[:60]
         if isinstance(node.value, ast.Compare) and isinstance(node.value.ops[0], ast.Eq):
             yield node.lineno, f"{code} compares and throws the result away: = assigns, == compares"
         elif isinstance(node.value, ast.Compare):
@@ -34,7 +32,7 @@ def thrown_away(tree: ast.AST) -> Iterator[Place]:
         elif isinstance(node.value, ast.BinOp):
             yield node.lineno, f"{code} is computed and thrown away: += or = keeps the result"
         elif isinstance(node.value, ast.Call) and _only_returns(node.value):
-            name = ast.unparse(node.value.func)
+            name = unparse(node.value.func)
             yield (
                 node.lineno,
                 f"{code} is thrown away: {name}() does not change what it is given, it returns the result; "
@@ -44,7 +42,7 @@ def thrown_away(tree: ast.AST) -> Iterator[Place]:
 
 def _only_returns(call: ast.Call) -> bool:
     """Return whether a call does nothing but return a value."""
-    owner, _, name = ast.unparse(call.func).rpartition(".")
+    owner, _, name = unparse(call.func).rpartition(".")
     if name.startswith("do_transform_"):
         return True
     if owner in ("np", "numpy", "math"):
@@ -54,12 +52,12 @@ def _only_returns(call: ast.Call) -> bool:
 
 def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:
     """Find `x =+ 1`, which assigns +1."""
-    for node in walk(tree):
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.UnaryOp) and len(node.targets) == 1:
+    for node in nodes_of(tree, ast.Assign):
+        if isinstance(node.value, ast.UnaryOp) and len(node.targets) == 1:
             operand = node.value.operand
             if isinstance(node.value.op, ast.UAdd) and isinstance(operand, ast.Constant):
-                name = ast.unparse(node.targets[0])
-                value = ast.unparse(operand)
+                name = unparse(node.targets[0])
+                value = unparse(operand)
                 yield node.lineno, f"{name} =+ {value} sets it to {value} in every call: {name} += {value} adds {value}"
 
 
@@ -75,10 +73,10 @@ def changed_after_publish(tree: ast.AST) -> Iterator[Place]:
             if made or _published_again(function, statement, name):
                 continue
             for each in (inner for outer in later for inner in _statements(outer)):
-                if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]).startswith(f"{name}."):
+                if isinstance(each, ast.Assign) and unparse(each.targets[0]).startswith(f"{name}."):
                     yield (
                         each.lineno,
-                        f"{ast.unparse(each.targets[0])} is set after publish({name}) in line {statement.lineno}: what "
+                        f"{unparse(each.targets[0])} is set after publish({name}) in line {statement.lineno}: what "
                         "was sent does not change any more",
                     )
                     break
@@ -95,37 +93,37 @@ def _published_again(function: ast.FunctionDef, statement: ast.stmt, name: str) 
     return False
 
 
-def _statements(tree: ast.AST) -> Iterator[ast.stmt]:
-    return (each for each in walk(tree) if isinstance(each, ast.stmt))
+def _statements(tree: ast.AST) -> tuple[ast.stmt, ...]:
+    return nodes_of(tree, ast.stmt)
 
 
 def _published(statement: ast.stmt) -> str:
     """Return the name of the message if the statement is a publish() of one."""
     if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call) and len(statement.value.args) == 1:
         call = statement.value
-        if ast.unparse(call.func).endswith(".publish") and isinstance(call.args[0], ast.Name | ast.Attribute):
-            return ast.unparse(call.args[0])
+        if unparse(call.func).endswith(".publish") and isinstance(call.args[0], ast.Name | ast.Attribute):
+            return unparse(call.args[0])
     return ""
 
 
 def _makes(statement: ast.stmt, name: str) -> bool:
-    return isinstance(statement, ast.Assign) and any(ast.unparse(target) == name for target in statement.targets)
+    return isinstance(statement, ast.Assign) and any(unparse(target) == name for target in statement.targets)
 
 
 def never_sent(tree: ast.AST) -> Iterator[Place]:
     """Find a message that a function makes and at most fills, and hands to nobody."""
     for function in functions(tree):
-        loads = [n for n in walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
+        loads = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Load)]
         bases = {
             id(inner)
-            for node in walk(function)
-            if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)
+            for node in nodes_of(function, ast.Attribute)
+            if isinstance(node.ctx, ast.Store)
             for inner in walk(node)
         }
         for target, node in assignments(function):
             if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
                 continue
-            kind = ast.unparse(node.value.func).rpartition(".")[2]
+            kind = unparse(node.value.func).rpartition(".")[2]
             if kind in MESSAGES and all(id(each) in bases for each in loads if each.id == target.id):
                 yield (
                     node.lineno,
@@ -145,12 +143,12 @@ def always_true(tree: ast.AST) -> Iterator[Place]:
                 if constants:
                     yield (
                         node.test.lineno,
-                        f"{ast.unparse(each)[:60]} is always true, because {ast.unparse(constants[0])} is: each "
+                        f"{unparse(each)[:60]} is always true, because {unparse(constants[0])} is: each "
                         "side of or is a condition of its own",
                     )
         tested = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
-        if ast.unparse(tested) in FUNCTIONS:
-            name = ast.unparse(tested)
+        if unparse(tested) in FUNCTIONS:
+            name = unparse(tested)
             yield (
                 node.test.lineno,
                 f"{name} without brackets is the function, which is always true: {name}(...) calls it",
@@ -170,15 +168,15 @@ def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
 def first_iteration(tree: ast.AST) -> Iterator[Place]:
     """Find a return at the end of the body of a loop that collects something: the loop ends at once."""
     for function in functions(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.For) or not isinstance(node.body[-1], ast.Return):
+        for node in nodes_of(function, ast.For):
+            if not isinstance(node.body[-1], ast.Return):
                 continue
             if any(isinstance(each, ast.Continue | ast.Break) for each in walk(node)):
                 continue
             if _set_in(function.body, before=node.lineno) & _set_in(node.body, before=node.body[-1].lineno):
                 yield (
                     node.body[-1].lineno,
-                    f"{ast.unparse(node.body[-1])[:40]} stands inside of the loop of line {node.lineno}, which ends in "
+                    f"{unparse(node.body[-1])[:40]} stands inside of the loop of line {node.lineno}, which ends in "
                     "its first iteration: further to the left it comes after the loop",
                 )
 
@@ -190,41 +188,36 @@ def _set_in(block: list[ast.stmt], before: int) -> set[str]:
         if getattr(node, "lineno", before) >= before:
             continue
         if isinstance(node, ast.Assign):
-            names |= {ast.unparse(target) for target in node.targets}
+            names |= {unparse(target) for target in node.targets}
         elif isinstance(node, ast.AugAssign):
-            names.add(ast.unparse(node.target))
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".append"):
-            names.add(ast.unparse(node.func).removesuffix(".append"))
+            names.add(unparse(node.target))
+        elif isinstance(node, ast.Call) and unparse(node.func).endswith(".append"):
+            names.add(unparse(node.func).removesuffix(".append"))
     return names
 
 
 def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
     """Find a timer that is to end by losing its name, or by reset()."""
     timers = {
-        ast.unparse(node.targets[0])
-        for node in walk(tree)
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and "create_timer" in called(node.value)
+        unparse(node.targets[0])
+        for node in nodes_of(tree, ast.Assign)
+        if isinstance(node.value, ast.Call) and "create_timer" in called(node.value)
     }
     if "cancel" in called(tree) or "destroy_timer" in called(tree):
         return
-    inits = {
-        id(inner)
-        for node in walk(tree)
-        if isinstance(node, ast.FunctionDef) and node.name == "__init__"
-        for inner in walk(node)
-    }
+    inits = {id(inner) for node in nodes_of(tree, ast.FunctionDef) if node.name == "__init__" for inner in walk(node)}
     for node in walk(tree):
         if id(node) in inits:
             continue
-        lost = isinstance(node, ast.Assign) and ast.unparse(node.value) in ("None", "False")
+        lost = isinstance(node, ast.Assign) and unparse(node.value) in ("None", "False")
         if isinstance(node, ast.Assign | ast.Delete) and (lost or isinstance(node, ast.Delete)):
-            if (name := ast.unparse(node.targets[0])) in timers:
+            if (name := unparse(node.targets[0])) in timers:
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)} takes the name away, and the timer goes on: {name}.cancel() ends it",
+                    f"{unparse(node)} takes the name away, and the timer goes on: {name}.cancel() ends it",
                 )
         elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
-            owner, _, method = ast.unparse(node.value.func).rpartition(".")
+            owner, _, method = unparse(node.value.func).rpartition(".")
             if owner in timers and method == "reset":
                 yield (
                     node.lineno,

@@ -5,18 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, functions, unparse, walk
 
 
 def returns_when_there(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.x is not None: return` before lines that use parts of `self.x`, which is None there."""
     for function in functions(tree):
         for place, node in enumerate(function.body):
-            if (
-                not isinstance(node, ast.If)
-                or node.orelse
-                or ast.unparse(node.body[-1]) not in ("return", "return None")
-            ):
+            if not isinstance(node, ast.If) or node.orelse or unparse(node.body[-1]) not in ("return", "return None"):
                 continue
             for name in _there(node.test):
                 if _uses(function.body[place + 1 :], name):
@@ -33,7 +29,7 @@ def _there(test: ast.expr) -> Iterator[str]:
         for each in test.values:
             yield from _there(each)
     elif isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.IsNot):
-        name, none = ast.unparse(test.left), ast.unparse(test.comparators[0])
+        name, none = unparse(test.left), unparse(test.comparators[0])
         yield from [name] if none == "None" and name.startswith("self.") else []
 
 
@@ -44,11 +40,9 @@ def _uses(body: list[ast.stmt], name: str) -> bool:
         if any(isinstance(node, ast.Attribute) and _stores(node, name) for node in nodes):
             return False
         for node in nodes:
-            parts = isinstance(node, ast.Attribute | ast.Subscript) and ast.unparse(node.value) == name
+            parts = isinstance(node, ast.Attribute | ast.Subscript) and unparse(node.value) == name
             unpacked = (
-                isinstance(node, ast.Assign)
-                and isinstance(node.targets[0], ast.Tuple)
-                and ast.unparse(node.value) == name
+                isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple) and unparse(node.value) == name
             )
             if parts or unpacked:
                 return True
@@ -56,7 +50,7 @@ def _uses(body: list[ast.stmt], name: str) -> bool:
 
 
 def _stores(node: ast.Attribute, name: str) -> bool:
-    return isinstance(node.ctx, ast.Store) and ast.unparse(node) == name
+    return isinstance(node.ctx, ast.Store) and unparse(node) == name
 
 
 LOOKS = (returns_when_there,)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, nodes_of, unparse, walk
 
 ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
 WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
@@ -47,8 +47,8 @@ def _goes_through(node: ast.AST, name: str) -> int:
     """Return the line in which a node goes through a whole iterable; 0 if it does not."""
     if isinstance(node, ast.For | ast.comprehension) and isinstance(node.iter, ast.Name) and node.iter.id == name:
         return node.iter.lineno
-    whole = isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in WHOLE_USE
-    if isinstance(node, ast.Call) and whole and name in [ast.unparse(each) for each in node.args]:
+    whole = isinstance(node, ast.Call) and unparse(node.func).rpartition(".")[2] in WHOLE_USE
+    if isinstance(node, ast.Call) and whole and name in [unparse(each) for each in node.args]:
         return node.lineno
     return 0
 
@@ -56,16 +56,16 @@ def _goes_through(node: ast.AST, name: str) -> int:
 def same_object(tree: ast.AST) -> Iterator[Place]:
     """Find `hit.header = scan.header` and then `hit.header.frame_id = ...`, which changes the scan too."""
     for function in functions(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
+        for node in nodes_of(function, ast.Assign):
+            if not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
                 continue
-            target, value = ast.unparse(node.targets[0]), ast.unparse(node.value)
+            target, value = unparse(node.targets[0]), unparse(node.value)
             if not isinstance(node.targets[0], ast.Attribute) or value.rpartition(".")[2] not in PARTS:
                 continue
-            for each in walk(function):
-                if not isinstance(each, ast.Assign) or each.lineno <= node.lineno:
+            for each in nodes_of(function, ast.Assign):
+                if each.lineno <= node.lineno:
                     continue
-                if ast.unparse(each.targets[0]).startswith(f"{target}."):
+                if unparse(each.targets[0]).startswith(f"{target}."):
                     yield (
                         each.lineno,
                         f"{target} is {value} itself since line {node.lineno}, no copy: this line changes both; set "
@@ -86,8 +86,8 @@ def identity(tree: ast.AST) -> Iterator[Place]:
         for target, value in assigned(tree)
         if isinstance(value, ast.Constant) and type(value.value) in (str, int, float)
     } - {""}
-    for node in walk(tree):
-        if not isinstance(node, ast.Compare) or not isinstance(node.ops[0], ast.Is | ast.IsNot):
+    for node in nodes_of(tree, ast.Compare):
+        if not isinstance(node.ops[0], ast.Is | ast.IsNot):
             continue
         sides = (node.left, node.comparators[0])
         if any(
@@ -100,7 +100,7 @@ def identity(tree: ast.AST) -> Iterator[Place]:
                 word, sign = ("is", "==") if isinstance(node.ops[0], ast.Is) else ("is not", "!=")
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]}: {word} asks whether both are the same object, {sign} whether they are "
+                    f"{unparse(node)[:60]}: {word} asks whether both are the same object, {sign} whether they are "
                     "equal",
                 )
                 break
@@ -108,8 +108,8 @@ def identity(tree: ast.AST) -> Iterator[Place]:
 
 def repeated_rows(tree: ast.AST) -> Iterator[Place]:
     """Find `[[0] * width] * height`, whose rows are all the same list."""
-    for node in walk(tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
+    for node in nodes_of(tree, ast.BinOp):
+        if isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
             inner = node.left.elts[0] if len(node.left.elts) == 1 else None
             rows = isinstance(inner, ast.List | ast.ListComp | ast.Dict | ast.Set) or (
                 isinstance(inner, ast.BinOp) and isinstance(inner.left, ast.List)
@@ -117,21 +117,21 @@ def repeated_rows(tree: ast.AST) -> Iterator[Place]:
             if rows:
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]} repeats one and the same row: a change of one row changes all; "
+                    f"{unparse(node)[:60]} repeats one and the same row: a change of one row changes all; "
                     "[[0] * width for _ in range(height)] makes a row each time",
                 )
 
 
 def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
     """Find `Time(seconds=stamp.sec)`, which leaves the nanoseconds out."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] not in ("Time", "Duration"):
+    for node in nodes_of(tree, ast.Call):
+        if unparse(node.func).rpartition(".")[2] not in ("Time", "Duration"):
             continue
-        given = {each.arg: ast.unparse(each.value) for each in node.keywords}
+        given = {each.arg: unparse(each.value) for each in node.keywords}
         if given.get("seconds", "").endswith(".sec") and not {"nanoseconds", "nanosec"} & set(given):
             yield (
                 node.lineno,
-                f"{ast.unparse(node)[:60]} has the whole seconds only, and the stamp's nanosec is left out: "
+                f"{unparse(node)[:60]} has the whole seconds only, and the stamp's nanosec is left out: "
                 "Time.from_msg(stamp) takes both",
             )
 
@@ -139,7 +139,7 @@ def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
 def python_logging(tree: ast.AST) -> Iterator[Place]:
     """Find lines for the log that Python's own logging swallows, because nothing has set it up."""
     imported = any(isinstance(node, ast.Import) and any(a.name == "logging" for a in node.names) for node in walk(tree))
-    calls = {ast.unparse(node.func): node.lineno for node in walk(tree) if isinstance(node, ast.Call)}
+    calls = {unparse(node.func): node.lineno for node in nodes_of(tree, ast.Call)}
     if not imported or any("basicConfig" in call or "addHandler" in call for call in calls):
         return
     for call, line in calls.items():
@@ -154,19 +154,19 @@ def python_logging(tree: ast.AST) -> Iterator[Place]:
 
 def zero_is_false(tree: ast.AST) -> Iterator[Place]:
     """Find `if not self.x:` where self.x begins as None and is later set to 0: it asks for None and for 0 alike."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         given: dict[str, list[object]] = {}
-        for node in walk(owner):
-            if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant):
-                given.setdefault(ast.unparse(node.targets[0]), []).append(node.value.value)
-        for node in walk(owner):
-            if isinstance(node, ast.If) and isinstance(node.test, ast.UnaryOp) and isinstance(node.test.op, ast.Not):
-                name = ast.unparse(node.test.operand)
+        for node in nodes_of(owner, ast.Assign):
+            if isinstance(node.value, ast.Constant):
+                given.setdefault(unparse(node.targets[0]), []).append(node.value.value)
+        for block in nodes_of(owner, ast.If):
+            if isinstance(block.test, ast.UnaryOp) and isinstance(block.test.op, ast.Not):
+                name = unparse(block.test.operand)
                 values = given.get(name, [])
                 zero = next((v for v in values if type(v) in (int, float) and v == 0), None)
                 if None in values and zero is not None:
                     yield (
-                        node.test.lineno,
+                        block.test.lineno,
                         f"not {name} holds for {zero}, too, not only for None: {zero} counts as false; ask "
                         f"{name} is None",
                     )

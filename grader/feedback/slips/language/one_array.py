@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
 
 MAKES = frozenset({"zeros", "ones", "full", "empty", "array", "zeros_like", "list", "dict", "set"})
 CHANGES = frozenset({"append", "extend", "add", "update", "fill", "insert"})
@@ -16,17 +16,17 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
     changed = _changed(tree)
     made: set[str] = set()
     for function in (each for each in functions(tree) if each.name == "__init__"):
-        for node in (each for each in walk(function) if isinstance(each, ast.Assign)):
-            names = [ast.unparse(target) for target in node.targets]
+        for node in nodes_of(function, ast.Assign):
+            names = [unparse(target) for target in node.targets]
             if _makes(node.value):
                 made |= set(names)
-            elif ast.unparse(node.value) in made:
-                names.append(ast.unparse(node.value))
+            elif unparse(node.value) in made:
+                names.append(unparse(node.value))
             both = [name for name in names if name in changed]
-            if len(both) > 1 and (_makes(node.value) or ast.unparse(node.value) in made):
+            if len(both) > 1 and (_makes(node.value) or unparse(node.value) in made):
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:70]} gives one array two names, so what is added to {both[0]} is in "
+                    f"{unparse(node)[:70]} gives one array two names, so what is added to {both[0]} is in "
                     f"{both[1]}, too: make each of its own",
                 )
 
@@ -34,20 +34,18 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
 def one_local(tree: ast.AST) -> Iterator[Place]:
     """Find `misses = hits = set()` in a function that adds to both by different calls."""
     for function in functions(tree):
-        for node in (each for each in walk(function) if isinstance(each, ast.Assign) and len(each.targets) > 1):
+        for node in (each for each in nodes_of(function, ast.Assign) if len(each.targets) > 1):
             names = [each.id for each in node.targets if isinstance(each, ast.Name)]
-            new = {ast.unparse(one) for one, _ in assigned(function) if one not in node.targets}
+            new = {unparse(one) for one, _ in assigned(function) if one not in node.targets}
             added = [
                 name
                 for name in names
-                if any(
-                    each in CHANGES and ast.unparse(call.func).startswith(f"{name}.") for call, each in calls(function)
-                )
+                if any(each in CHANGES and unparse(call.func).startswith(f"{name}.") for call, each in calls(function))
             ]
             if _makes(node.value) and len(added) > 1 and not new & set(names):
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:70]} gives one collection two names, so what is added to {added[0]} is in "
+                    f"{unparse(node)[:70]} gives one collection two names, so what is added to {added[0]} is in "
                     f"{added[1]}, too: make each of its own",
                 )
 
@@ -64,27 +62,27 @@ def _changed(tree: ast.AST) -> set[str]:
     found = set().union(*changing.values()) if changing else set()
     for call, name in calls(tree):
         if isinstance(call.func, ast.Attribute) and name in CHANGES:
-            found.add(ast.unparse(call.func.value))
-        if ast.unparse(call.func).endswith("add.at") and call.args:
-            found.add(ast.unparse(call.args[0]))
+            found.add(unparse(call.func.value))
+        if unparse(call.func).endswith("add.at") and call.args:
+            found.add(unparse(call.args[0]))
         own = next((each for each in functions(tree) if each.name == name), None)
         if own is not None:
             names = [each.arg for each in own.args.args if each.arg != "self"]
             for parameter, given in zip(names, call.args, strict=False):
                 if parameter in changing[own.name]:
-                    found.add(ast.unparse(given))
+                    found.add(unparse(given))
     return {each for each in found if each.startswith("self.")}
 
 
 def _parts_set(function: ast.FunctionDef) -> set[str]:
     """Return the names of which parts are assigned."""
     found = set()
-    for node in walk(function):
-        whole = node
+    for node in nodes_of(function, ast.Subscript):
+        whole: ast.expr = node
         while isinstance(whole, ast.Subscript):
             whole = whole.value
-        if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store):
-            found.add(ast.unparse(whole))
+        if isinstance(node.ctx, ast.Store):
+            found.add(unparse(whole))
     return found
 
 

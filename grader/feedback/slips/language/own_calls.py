@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, functions, kept, last_name, nodes_of, unparse, walk
 
 EITHER = {"start", "goal", "end", "first", "second", "source", "target", "here", "there"}  # in both orders on purpose
 SYMMETRIC = re.compile(r"dist|between|near|close|same|apart|away|gap|length|swap|way|path|route|touch")
@@ -36,7 +36,7 @@ def exchanged_names(tree: ast.AST) -> Iterator[Place]:
                 order = ", ".join(params)
                 yield (
                     call.lineno,
-                    f"{ast.unparse(call)[:60]} has {second} and {first} in the wrong order: the function, in line "
+                    f"{unparse(call)[:60]} has {second} and {first} in the wrong order: the function, in line "
                     f"{function.lineno}, is {function.name}({order})",
                 )
 
@@ -46,10 +46,12 @@ def _letters(first: str, second: str) -> bool:
     return len(first) == len(second) == 1 and {first, second} != {"x", "y"}
 
 
-def calls_of_own(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, list[ast.Call]]]:
-    """Yield each function whose name is defined once, with the calls of it from other functions."""
+@kept
+def calls_of_own(tree: ast.AST) -> tuple[tuple[ast.FunctionDef, list[ast.Call]], ...]:
+    """Return each function whose name is defined once, with the calls of it from other functions."""
     defined = list(functions(tree))
     names = [function.name for function in defined]
+    found: list[tuple[ast.FunctionDef, list[ast.Call]]] = []
     for function in defined:
         own = {id(node) for node in walk(function)}
         if names.count(function.name) != 1 or any(
@@ -59,14 +61,14 @@ def calls_of_own(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, list[ast.Call
         method = is_method(function)
         given = [
             node
-            for node in walk(tree)
-            if isinstance(node, ast.Call)
-            and id(node) not in own
+            for node in nodes_of(tree, ast.Call)
+            if id(node) not in own
             and last_name(node.func) == function.name
             and isinstance(node.func, ast.Attribute) == method
             and not any(isinstance(each, ast.Starred) for each in node.args)
         ]
-        yield function, given
+        found.append((function, given))
+    return tuple(found)
 
 
 def is_method(function: ast.FunctionDef) -> bool:

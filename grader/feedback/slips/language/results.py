@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, is_none, set_to, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    assigned,
+    calls,
+    functions,
+    is_none,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
 
 NEVER_RETURN = frozenset({"NotImplementedError", "abstractmethod"})
 
@@ -18,8 +28,8 @@ def no_return(tree: ast.AST) -> Iterator[Place]:
     inner = {
         id(each)
         for function in functions(tree)
-        for node in walk(function)
-        if node is not function and isinstance(node, ast.FunctionDef | ast.Lambda | ast.AsyncFunctionDef)
+        for node in nodes_of(function, ast.FunctionDef, ast.Lambda, ast.AsyncFunctionDef)
+        if node is not function
         for each in walk(node)
     }
     empty = {
@@ -34,14 +44,14 @@ def no_return(tree: ast.AST) -> Iterator[Place]:
             ):
                 yield (
                     empty[name].lineno,
-                    f"{name} returns nothing, so {ast.unparse(used)[:40]} in line {used.lineno} is None: return "
+                    f"{name} returns nothing, so {unparse(used)[:40]} in line {used.lineno} is None: return "
                     "gives the result back",
                 )
                 return
 
 
 def _gives_something(function: ast.FunctionDef, inner: set[int]) -> bool:
-    text = ast.unparse(function)
+    text = unparse(function)
     if any(word in text for word in NEVER_RETURN):
         return True
     return any(
@@ -56,7 +66,7 @@ def _gives_something(function: ast.FunctionDef, inner: set[int]) -> bool:
 def _used(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield the expressions of which a value is wanted: conditions, terms, sides of comparisons, what is published."""
     done = {id(each.body if isinstance(each, ast.Lambda) else each.value)
-            for each in walk(tree) if isinstance(each, ast.Lambda | ast.Expr)}  # fmt: skip
+            for each in nodes_of(tree, ast.Lambda, ast.Expr)}  # fmt: skip
     for node in walk(tree):
         match node:
             case ast.BoolOp(values=values) if id(node) in done:
@@ -76,9 +86,9 @@ def _used(tree: ast.AST) -> Iterator[ast.expr]:
 def one_message(tree: ast.AST) -> Iterator[Place]:
     """Find `self.halt = self.go` and then fields of self.halt that are set, where both are published."""
     values = set_to(tree)
-    sent = {ast.unparse(call.args[0]) for call, name in calls(tree) if name == "publish" and call.args}
+    sent = {unparse(call.args[0]) for call, name in calls(tree) if name == "publish" and call.args}
     for target, value in assigned(tree):
-        name, other = ast.unparse(target), ast.unparse(value)
+        name, other = unparse(target), unparse(value)
         if not isinstance(value, ast.Name | ast.Attribute):
             continue
         if (
@@ -88,7 +98,7 @@ def one_message(tree: ast.AST) -> Iterator[Place]:
         ):
             continue
         for field, _ in assigned(tree):
-            if ast.unparse(field).startswith(f"{name}.") and field.lineno > target.lineno:
+            if unparse(field).startswith(f"{name}.") and field.lineno > target.lineno:
                 yield (
                     target.lineno,
                     f"{name} = {other} makes no second message: both names are the same one, and line {field.lineno} "
@@ -99,9 +109,9 @@ def one_message(tree: ast.AST) -> Iterator[Place]:
 
 def not_called(tree: ast.AST) -> Iterator[Place]:
     """Find `if not self.over:` where over is a method: without brackets it is always true."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         methods = {each.name for each in owner.body if isinstance(each, ast.FunctionDef) and not each.decorator_list}
-        kept = {ast.unparse(target) for target, _ in assigned(owner)}
+        kept = {unparse(target) for target, _ in assigned(owner)}
         for node in walk(owner):
             match node:
                 case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(ast.Not(), test):
@@ -113,7 +123,7 @@ def not_called(tree: ast.AST) -> Iterator[Place]:
                 case _:
                     continue
             for part in parts:
-                name = ast.unparse(part)
+                name = unparse(part)
                 if isinstance(part, ast.Attribute) and name.removeprefix("self.") in methods and name not in kept:
                     yield (
                         part.lineno,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, left_early, walk
+from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, left_early, nodes_of, unparse, walk
 
 READ_ONCE = frozenset({"filter", "map", "zip", "reversed", "iter", "enumerate"})
 READERS = frozenset({
@@ -24,7 +24,7 @@ def assigned(function: ast.FunctionDef) -> dict[str, list[ast.expr | None]]:
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
             found.setdefault(node.id, [])
         elif isinstance(node, ast.AugAssign):
-            found.setdefault(ast.unparse(node.target), []).append(None)
+            found.setdefault(unparse(node.target), []).append(None)
     return found
 
 
@@ -49,7 +49,7 @@ def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
     for node in walk(function):
         if isinstance(node, ast.Call) and last_name(node.func) in READERS:
             yield from (each for each in node.args if isinstance(each, ast.Name) and each.id == name)
-        elif isinstance(node, ast.For | ast.comprehension) and ast.unparse(node.iter) == name:
+        elif isinstance(node, ast.For | ast.comprehension) and unparse(node.iter) == name:
             ends = isinstance(node, ast.For) and left_early(node)
             if not ends:
                 yield node.iter
@@ -57,20 +57,18 @@ def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
 
 def changed_while_read(tree: ast.AST) -> Iterator[Place]:
     """Find a loop over a list that takes elements out of the same list, and goes on."""
-    for loop in (node for node in walk(tree) if isinstance(node, ast.For)):
+    for loop in nodes_of(tree, ast.For):
         over = loop.iter
         if isinstance(over, ast.Call) and last_name(over.func) == "enumerate" and over.args:
             over = over.args[0]
         if not isinstance(over, ast.Name | ast.Attribute):
             continue
-        name = ast.unparse(over)
+        name = unparse(over)
         for node in walk(loop):
             call = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in CHANGES
-            taken = call and ast.unparse(node.func.value) == name  # type: ignore[attr-defined]
+            taken = call and unparse(node.func.value) == name  # type: ignore[attr-defined]
             if isinstance(node, ast.Delete):
-                taken = any(
-                    isinstance(each, ast.Subscript) and ast.unparse(each.value) == name for each in node.targets
-                )
+                taken = any(isinstance(each, ast.Subscript) and unparse(each.value) == name for each in node.targets)
             if taken and not _leaves_after(loop.body, node):
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
@@ -94,7 +92,7 @@ def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
 
 def compared_with_nan(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons that are always the same: with nan by value, with a float by identity."""
-    for node in (node for node in walk(tree) if isinstance(node, ast.Compare)):
+    for node in nodes_of(tree, ast.Compare):
         for left, operator, right in zip([node.left, *node.comparators], node.ops, node.comparators, strict=False):
             kinds = {_constant(side) for side in (left, right)}
             if isinstance(operator, ast.Eq | ast.NotEq) and "nan" in kinds:
@@ -109,7 +107,7 @@ def compared_with_nan(tree: ast.AST) -> Iterator[Place]:
 
 def _constant(node: ast.expr) -> str:
     """Return `inf` or `nan` for math.inf, float('nan') and the like; empty for anything else."""
-    text = ast.unparse(node).replace('"', "'").lower().lstrip("+-")
+    text = unparse(node).replace('"', "'").lower().lstrip("+-")
     names = {f"{module}.{name}": name for module in ("math", "np", "numpy") for name in ("inf", "nan")}
     names |= {f"float('{sign}{name}')": name for sign in ("", "-", "+") for name in ("inf", "nan")}
     return names.get(text, "")
@@ -118,14 +116,12 @@ def _constant(node: ast.expr) -> str:
 def log_arguments(tree: ast.AST) -> Iterator[Place]:
     """Find a line of the node's logger with several arguments, as print() and Python's logging take them."""
     loggers = {
-        ast.unparse(node.targets[0])
-        for node in walk(tree)
-        if isinstance(node, ast.Assign) and ast.unparse(node.value).endswith("get_logger()")
+        unparse(node.targets[0]) for node in nodes_of(tree, ast.Assign) if unparse(node.value).endswith("get_logger()")
     }
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute) or node.func.attr not in LEVELS:
+    for node in nodes_of(tree, ast.Call):
+        if not isinstance(node.func, ast.Attribute) or node.func.attr not in LEVELS:
             continue
-        owner = ast.unparse(node.func.value)
+        owner = unparse(node.func.value)
         if len(node.args) > 1 and (owner.endswith("get_logger()") or owner in loggers):
             yield (
                 node.lineno,

@@ -5,21 +5,21 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, nodes_of, unparse, walk
 
 
 def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
     """Find `self.front = self.own` where methods of both are the callbacks of two subscriptions."""
     listening = {
-        ast.unparse(each.value)
+        unparse(each.value)
         for call, name in calls(tree)
         if name == "create_subscription"
         for each in (*call.args, *(word.value for word in call.keywords))
-        if isinstance(each, ast.Attribute) and ast.unparse(each.value).startswith("self.")
+        if isinstance(each, ast.Attribute) and unparse(each.value).startswith("self.")
     }
     values: dict[str, list[tuple[int, str]]] = {}
     for target, value in assigned(tree):
-        values.setdefault(ast.unparse(target), []).append((target.lineno, ast.unparse(value)))
+        values.setdefault(unparse(target), []).append((target.lineno, unparse(value)))
     for name in sorted(listening & values.keys()):
         line, other = values[name][-1]
         if other in listening and other != name and len(values.get(other, ())) == 1:
@@ -28,9 +28,9 @@ def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
                 f"{name} is {other} here, one object with two names, so both subscriptions store into it: make one "
                 "for each",
             )
-    for node in walk(tree):
-        if isinstance(node, ast.Assign) and len(node.targets) > 1 and isinstance(node.value, ast.Call):
-            names = [ast.unparse(each) for each in node.targets if ast.unparse(each) in listening]
+    for node in nodes_of(tree, ast.Assign):
+        if len(node.targets) > 1 and isinstance(node.value, ast.Call):
+            names = [unparse(each) for each in node.targets if unparse(each) in listening]
             if len(names) > 1 and all(len(values[each]) == 1 for each in names):
                 yield (
                     node.lineno,
@@ -42,19 +42,19 @@ def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
 def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
     """Find `Robot.pose = ...` in a method of Robot that gets a message, where the file makes two objects of it."""
     made = [name for _, name in calls(tree)]
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         if made.count(owner.name) < 2:
             continue
         for method in (node for node in owner.body if isinstance(node, ast.FunctionDef)):
             given = {each.arg for each in method.args.args[1:]}
             for target, value in assigned(method):
-                whole = isinstance(target, ast.Attribute) and ast.unparse(target.value)
-                if whole != owner.name or not given & {ast.unparse(each) for each in walk(value)}:
+                whole = isinstance(target, ast.Attribute) and unparse(target.value)
+                if whole != owner.name or not given & {unparse(each) for each in walk(value)}:
                     continue
-                attribute = ast.unparse(target).rpartition(".")[2]
+                attribute = unparse(target).rpartition(".")[2]
                 yield (
                     target.lineno,
-                    f"{ast.unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of "
+                    f"{unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of "
                     f"{owner.name} share it and the last message of any of them counts: self.{attribute} is one for "
                     "each",
                 )
@@ -64,29 +64,26 @@ def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
     """Find `self.planner = Planner(self.grid)` with another `self.grid = ...` later: the planner keeps the first."""
     keeps = {
         node.name
-        for node in walk(tree)
-        if isinstance(node, ast.ClassDef)
+        for node in nodes_of(tree, ast.ClassDef)
         for method in node.body
         if isinstance(method, ast.FunctionDef) and method.name == "__init__"
         for target, value in assigned(method)
-        if isinstance(target, ast.Attribute) and ast.unparse(value) in {each.arg for each in method.args.args[1:]}
+        if isinstance(target, ast.Attribute) and unparse(value) in {each.arg for each in method.args.args[1:]}
     }
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
-        sets = [(target.lineno, ast.unparse(target), value) for target, value in assigned(owner)]
-        made = {
-            name for _, name, value in sets if isinstance(value, ast.Call) and ast.unparse(value.func)[:1].isupper()
-        }
+    for owner in nodes_of(tree, ast.ClassDef):
+        sets = [(target.lineno, unparse(target), value) for target, value in assigned(owner)]
+        made = {name for _, name, value in sets if isinstance(value, ast.Call) and unparse(value.func)[:1].isupper()}
         for line, name, value in sets:
-            given = [ast.unparse(each) for each in value.args] if isinstance(value, ast.Call) else []
-            if not isinstance(value, ast.Call) or ast.unparse(value.func) not in keeps or not name.startswith("self."):
+            given = [unparse(each) for each in value.args] if isinstance(value, ast.Call) else []
+            if not isinstance(value, ast.Call) or unparse(value.func) not in keeps or not name.startswith("self."):
                 continue
-            twins = {ast.unparse(of): other for _, other, of in sets if other.startswith("self.") and other != name}
+            twins = {unparse(of): other for _, other, of in sets if other.startswith("self.") and other != name}
             for one in (each for each in value.args if isinstance(each, ast.Call) and (each.args or each.keywords)):
-                if ast.unparse(one) in twins:
+                if unparse(one) in twins:
                     yield (
                         line,
-                        f"{ast.unparse(one)[:60]} is a second one here, beside {twins[ast.unparse(one)]}, so {name} "
-                        f"sees nothing of what comes into that: hand over {twins[ast.unparse(one)]}",
+                        f"{unparse(one)[:60]} is a second one here, beside {twins[unparse(one)]}, so {name} "
+                        f"sees nothing of what comes into that: hand over {twins[unparse(one)]}",
                     )
                     return
             for each in made & set(given):
@@ -128,12 +125,12 @@ def one_list_for_all(tree: ast.AST) -> Iterator[Place]:
 
 def _grown(function: ast.FunctionDef) -> Iterator[tuple[int, str]]:
     """Yield the lists to which a function adds, each with its line."""
-    for node in walk(function):
-        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
-            yield node.lineno, ast.unparse(node.target)
+    for node in nodes_of(function, ast.AugAssign):
+        if isinstance(node.op, ast.Add):
+            yield node.lineno, unparse(node.target)
     for call, name in calls(function):
         if name in ("append", "extend", "insert") and isinstance(call.func, ast.Attribute):
-            yield call.lineno, ast.unparse(call.func.value)
+            yield call.lineno, unparse(call.func.value)
 
 
 def _called_for_several(tree: ast.AST, name: str) -> bool:

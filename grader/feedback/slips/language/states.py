@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, unparse, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 NEAR = 0.75  # how alike two names of one state are
@@ -17,7 +17,7 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
     given: dict[str, dict[str, int]] = {}
     unknown: set[str] = set()
     for target, value in assigned(tree):
-        name = ast.unparse(target)
+        name = unparse(target)
         if isinstance(value, ast.Constant) and isinstance(value.value, str):
             given.setdefault(name, {}).setdefault(value.value, target.lineno)
         else:
@@ -28,9 +28,9 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
     for node in walk(tree):
         match node:
             case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[ast.Constant(value=str(text))]):
-                asked.setdefault(ast.unparse(left), {}).setdefault(text, node.lineno)
+                asked.setdefault(unparse(left), {}).setdefault(text, node.lineno)
                 if isinstance(node.ops[0], ast.Eq):
-                    equal.add((ast.unparse(left), text))
+                    equal.add((unparse(left), text))
     for name in given.keys() & asked.keys() - unknown:
         for text, line in asked[name].items():
             unasked = [each for each in given[name] if each not in asked[name] and len(each) >= FEWEST]

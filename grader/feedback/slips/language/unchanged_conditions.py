@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, functions, nodes_of, unparse, walk
 
 
 def _numbers(test: ast.expr) -> set[str]:
@@ -20,7 +20,7 @@ def _numbers(test: ast.expr) -> set[str]:
 
 def _leaves(loop: ast.While) -> bool:
     """Return whether a loop is left in another way than by a cancellation."""
-    asked = [each for each in walk(loop) if isinstance(each, ast.If) and "cancel" in ast.unparse(each.test)]
+    asked = [each for each in nodes_of(loop, ast.If) if "cancel" in unparse(each.test)]
     cancelled = {id(node) for each in asked for part in each.body for node in walk(part)}
     ways = (ast.Break, ast.Return, ast.Raise, ast.Yield, ast.Await)
     return any(isinstance(each, ways) and id(each) not in cancelled for each in walk(loop))
@@ -29,9 +29,9 @@ def _leaves(loop: ast.While) -> bool:
 def never_changes(tree: ast.AST) -> Iterator[Place]:
     """Find `while left > 0.1:` where left was computed above the loop, and nowhere in it."""
     for function in functions(tree):
-        shared = {n for each in walk(function) if isinstance(each, ast.Global | ast.Nonlocal) for n in each.names}
-        stores = [n for n in walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
-        for loop in (each for each in walk(function) if isinstance(each, ast.While)):
+        shared = {n for each in nodes_of(function, ast.Global, ast.Nonlocal) for n in each.names}
+        stores = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Store)]
+        for loop in nodes_of(function, ast.While):
             names = _numbers(loop.test)
             inside = {id(node) for node in walk(loop)}
             above = [n for n in stores if n.id in names and n.lineno < loop.lineno and id(n) not in inside]
@@ -41,7 +41,7 @@ def never_changes(tree: ast.AST) -> Iterator[Place]:
                 yield (
                     loop.lineno,
                     f"nothing in this loop changes {last.id}, which line {last.lineno} has computed, so "
-                    f"`{ast.unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
+                    f"`{unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
                 )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, kept, nodes_of, unparse, walk
 
 LONGEST_WAIT = 8.0  # [s] of counted ticks; a later message was hardly meant
 ENDS = ("shutdown", "destroy_node")  # what belongs behind spin()
@@ -15,18 +15,22 @@ HARMLESS = frozenset({
 })  # fmt: skip
 
 
-def blocks(tree: ast.AST) -> Iterator[list[ast.stmt]]:
-    for node in walk(tree):
-        for name in ("body", "orelse", "finalbody"):
-            block = getattr(node, name, None)
-            if isinstance(block, list) and block and isinstance(block[0], ast.stmt):
-                yield block
+@kept
+def blocks(tree: ast.AST) -> tuple[list[ast.stmt], ...]:
+    """Return the blocks of statements of a tree, outer ones first."""
+    found = [
+        getattr(node, name, None)
+        for node in walk(tree)
+        if not isinstance(node, ast.expr)
+        for name in ("body", "orelse", "finalbody")
+    ]
+    return tuple(block for block in found if isinstance(block, list) and block and isinstance(block[0], ast.stmt))
 
 
 def _call(statement: ast.stmt) -> str:
     """Return what a statement that is one call alone calls, such as `rclpy.spin`; empty for others."""
     if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
-        return ast.unparse(statement.value.func)
+        return unparse(statement.value.func)
     return ""
 
 
@@ -67,7 +71,7 @@ def behind_return(tree: ast.AST) -> Iterator[Place]:
         for statement in block[ends[0] + 1 :] if ends else ():
             yield (
                 statement.lineno,
-                f"this line never runs: {ast.unparse(block[ends[0]])[:40]}, line {block[ends[0]].lineno}, ends the "
+                f"this line never runs: {unparse(block[ends[0]])[:40]}, line {block[ends[0]].lineno}, ends the "
                 "block before it",
             )
             return
@@ -83,17 +87,15 @@ def other_name_than_main(tree: ast.Module) -> Iterator[Place]:
             yield (
                 node.lineno,
                 "the name of a file that is run is '__main__', with two underscores on either side: what stands below "
-                f"this condition, {ast.unparse(node.test)}, never runs",
+                f"this condition, {unparse(node.test)}, never runs",
             )
 
 
 def cancelled_at_once(tree: ast.AST) -> Iterator[Place]:
     """Find a timer that `__init__` makes and cancels, and that nothing resets."""
-    for function in (node for node in walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "__init__"):
+    for function in (node for node in nodes_of(tree, ast.FunctionDef) if node.name == "__init__"):
         made = {
-            ast.unparse(node.targets[0])
-            for node in walk(function)
-            if isinstance(node, ast.Assign) and "create_timer" in called(node.value)
+            unparse(node.targets[0]) for node in nodes_of(function, ast.Assign) if "create_timer" in called(node.value)
         }
         for statement in function.body:
             timer, _, method = _call(statement).rpartition(".")
@@ -106,17 +108,19 @@ def never_true(tree: ast.AST) -> Iterator[Place]:
 
     `if not self.x: return` keeps the lines behind it back in the same way.
     """
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         begins = _first_values(owner)
         for node, behind in ((each, block[i + 1 :]) for block in blocks(owner) for i, each in enumerate(block)):
             if not isinstance(node, ast.If):
                 continue
-            name, kept, where = _kept_back(node, behind)
-            inside = {id(each) for statement in kept for each in walk(statement)}
-            changed = [each for each in walk(owner) if _changes(each, name)]
+            name, held, where = _kept_back(node, behind)
+            if name not in begins or begins[name]:
+                continue
+            inside = {id(each) for statement in held for each in walk(statement)}
+            changed = [each for each in _assignments(owner) if _changes(each, name)]
             others = [each for each in changed if id(each) not in inside]
-            outside = [each for each in walk(tree) if _changes(each, name.removeprefix("self"))]
-            if name not in begins or begins[name] or len(others) != 1 or not len(others) < len(changed) == len(outside):
+            outside = [each for each in _assignments(tree) if _changes(each, name.removeprefix("self"))]
+            if len(others) != 1 or not len(others) < len(changed) == len(outside):
                 continue
             yield (
                 node.lineno,
@@ -129,10 +133,10 @@ def _kept_back(node: ast.If, behind: list[ast.stmt]) -> tuple[str, list[ast.stmt
     test, leaves = node.test, isinstance(node.body[-1], ast.Return | ast.Continue)
     if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not) and leaves and not node.orelse:
         inner = [each for statement in node.body for each in walk(statement)]
-        name = ast.unparse(test.operand)
+        name = unparse(test.operand)
         if not any(_changes(each, name) for each in inner):
-            return name, behind, f"after  if {ast.unparse(test)}: {ast.unparse(node.body[-1])}"
-    name = ast.unparse(test)
+            return name, behind, f"after  if {unparse(test)}: {unparse(node.body[-1])}"
+    name = unparse(test)
     return name, node.body, f"below  if {name}: "
 
 
@@ -140,16 +144,20 @@ def _first_values(owner: ast.ClassDef) -> dict[str, object]:
     """Return the constants that `__init__` assigns to attributes."""
     init = next((node for node in owner.body if isinstance(node, ast.FunctionDef) and node.name == "__init__"), None)
     return {
-        ast.unparse(node.targets[0]): node.value.value
+        unparse(node.targets[0]): node.value.value
         for node in (walk(init) if init is not None else ())
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
     }
 
 
+def _assignments(tree: ast.AST) -> tuple[ast.Assign | ast.AugAssign | ast.AnnAssign, ...]:
+    return nodes_of(tree, ast.Assign, ast.AugAssign, ast.AnnAssign)
+
+
 def _changes(node: ast.AST, name: str) -> bool:
     targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
     return isinstance(node, ast.Assign | ast.AugAssign | ast.AnnAssign) and any(
-        target is not None and name in ast.unparse(target) for target in targets
+        target is not None and name in unparse(target) for target in targets
     )
 
 
@@ -158,10 +166,10 @@ def one_callback_of_two(tree: ast.AST) -> Iterator[Place]:
     for block in blocks(tree):
         seen: dict[str, int] = {}
         for statement in block:
-            for call in [node for node in walk(statement) if isinstance(node, ast.Call) and len(node.args) == 2]:
-                if not ast.unparse(call.func).endswith("create_timer") or isinstance(statement, ast.FunctionDef):
+            for call in [node for node in nodes_of(statement, ast.Call) if len(node.args) == 2]:
+                if not unparse(call.func).endswith("create_timer") or isinstance(statement, ast.FunctionDef):
                     continue
-                callback = ast.unparse(call.args[1])
+                callback = unparse(call.args[1])
                 if callback in seen:
                     yield call.lineno, f"two timers call {callback}, this one and that in line {seen[callback]}"
                 seen[callback] = call.lineno
@@ -180,17 +188,17 @@ def ended_before(tree: ast.AST) -> Iterator[Place]:
 
 def counts_too_far(tree: ast.AST) -> Iterator[Place]:
     """Find a callback of a timer that does something at one count of its ticks, long after the start."""
-    functions = {node.name: node for node in walk(tree) if isinstance(node, ast.FunctionDef)}
-    for call in (node for node in walk(tree) if isinstance(node, ast.Call) and len(node.args) >= 2):
-        period, name = call.args[0], ast.unparse(call.args[1]).rpartition(".")[2]
-        if not ast.unparse(call.func).endswith("create_timer") or not isinstance(period, ast.Constant):
+    functions = {node.name: node for node in nodes_of(tree, ast.FunctionDef)}
+    for call in (node for node in nodes_of(tree, ast.Call) if len(node.args) >= 2):
+        period, name = call.args[0], unparse(call.args[1]).rpartition(".")[2]
+        if not unparse(call.func).endswith("create_timer") or not isinstance(period, ast.Constant):
             continue
         for node in walk(functions[name]) if name in functions else ():
             if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
                 continue
             counter, limit = node.test.left, node.test.comparators[0]
             steps = any(
-                isinstance(each, ast.AugAssign) and ast.unparse(each.target) == ast.unparse(counter)
+                isinstance(each, ast.AugAssign) and unparse(each.target) == unparse(counter)
                 for each in walk(functions[name])
             )
             number = limit.value if isinstance(limit, ast.Constant) else None
@@ -199,7 +207,7 @@ def counts_too_far(tree: ast.AST) -> Iterator[Place]:
             if isinstance(period.value, int | float) and number * period.value >= LONGEST_WAIT:
                 yield (
                     node.lineno,
-                    f"{ast.unparse(counter)} is {number:g} only after {number:g} ticks of {period.value:g} s, which "
+                    f"{unparse(counter)} is {number:g} only after {number:g} ticks of {period.value:g} s, which "
                     f"take {number * period.value:g} s",
                 )
 

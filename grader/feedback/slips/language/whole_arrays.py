@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, set_to, walk
+from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, nodes_of, set_to, unparse, walk
 
 NUMPY = ("np", "numpy")
 FILLED = {"zeros": 1, "ones": 1, "empty": 1, "full": 2, "array": 1, "zeros_like": 1, "full_like": 2}  # place of dtype
@@ -51,8 +51,8 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
                 step = next((each for each in parts if abs(each) < 1), parts[0])
                 yield (
                     node.lineno,
-                    f"{name} is an array of whole numbers (line {made.lineno}: `{ast.unparse(made)[:60]}`), so "
-                    f"`{ast.unparse(node)[:60]}` cannot keep the fraction of {step:g}"
+                    f"{name} is an array of whole numbers (line {made.lineno}: `{unparse(made)[:60]}`), so "
+                    f"`{unparse(node)[:60]}` cannot keep the fraction of {step:g}"
                     f"{', and 0 stays 0' if abs(step) < 1 else ''}: make the array with dtype=float",
                 )
                 return
@@ -62,29 +62,29 @@ def counters_that_wrap(tree: ast.AST) -> Iterator[Place]:
     """Find `hits[cell] += 1` where `hits` is an array of one byte for each number, and nothing limits it."""
     values = set_to(tree)
     arrays = {
-        name: (made, SMALL.search(ast.unparse(made)))
+        name: (made, SMALL.search(unparse(made)))
         for name, made in _whole_arrays(values, named_numbers(tree)).items()
         if made is not None
     }
     small = {name: (made, bool(kind["unsigned"])) for name, (made, kind) in arrays.items() if kind}
-    text = ast.unparse(tree)
+    text = unparse(tree)
     given = _given(tree) if small else {}
     for function in functions(tree) if small else ():
         parameters = [each.arg for each in function.args.args if each.arg != "self"]
-        for node in walk(function):
-            if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+        for node in nodes_of(function, ast.AugAssign):
+            if not isinstance(node.op, ast.Add):
                 continue
             name = _array(node.target)
             names = [name]
             if name in parameters:
-                names = [ast.unparse(each) for each in given.get((function.name, parameters.index(name)), [])]
+                names = [unparse(each) for each in given.get((function.name, parameters.index(name)), [])]
             counted = next((each for each in names if each in small and not _limited(text, each)), "")
             if counted and isinstance(number(node.value, {}), int):
                 made, unsigned = small[counted]
                 last, then = (255, 0) if unsigned else (127, -128)
                 yield (
                     node.lineno,
-                    f"{counted} is an array of bytes (line {made.lineno}: `{ast.unparse(made)[:60]}`), which end at "
+                    f"{counted} is an array of bytes (line {made.lineno}: `{unparse(made)[:60]}`), which end at "
                     f"{last}: one more is {then}, so what is counted often begins again: make the array with dtype=int",
                 )
                 return
@@ -113,7 +113,7 @@ def _is_whole(made: ast.expr, known: Mapping[str, ast.expr | None], names: Mappi
     """Return whether an expression makes an array of whole numbers."""
     if not isinstance(made, ast.Call) or not isinstance(made.func, ast.Attribute):
         return False
-    name, owner = made.func.attr, ast.unparse(made.func.value)
+    name, owner = made.func.attr, unparse(made.func.value)
     if name == "reshape":
         return _is_whole(made.func.value, known, names)
     if name == "astype":
@@ -128,11 +128,11 @@ def _is_whole(made: ast.expr, known: Mapping[str, ast.expr | None], names: Mappi
     if name == "full":
         filled = made.args[1] if len(made.args) > 1 else None
         return isinstance(number(filled, names), int)
-    return name.endswith("_like") and bool(made.args) and known.get(ast.unparse(made.args[0])) is not None
+    return name.endswith("_like") and bool(made.args) and known.get(unparse(made.args[0])) is not None
 
 
 def _means_whole(kind: ast.expr) -> bool:
-    said = kind.value if isinstance(kind, ast.Constant) else ast.unparse(kind)
+    said = kind.value if isinstance(kind, ast.Constant) else unparse(kind)
     return isinstance(said, str) and WHOLE.fullmatch(said) is not None
 
 
@@ -141,7 +141,7 @@ def _array(node: ast.AST) -> str:
     base = node
     while isinstance(base, ast.Subscript):
         base = base.value
-    return ast.unparse(base) if base is not node and isinstance(base, ast.Name | ast.Attribute) else ""
+    return unparse(base) if base is not node and isinstance(base, ast.Name | ast.Attribute) else ""
 
 
 def _added(value: ast.expr, old: set[str]) -> Iterator[ast.expr]:
@@ -149,7 +149,7 @@ def _added(value: ast.expr, old: set[str]) -> Iterator[ast.expr]:
     match value:
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub(), right=right):
             for one, other in ((left, right), (right, left)):
-                if _array(one) in old or ast.unparse(one) in old:
+                if _array(one) in old or unparse(one) in old:
                     yield other
                 else:
                     yield from _added(one, old)
@@ -163,10 +163,9 @@ def _added(value: ast.expr, old: set[str]) -> Iterator[ast.expr]:
 def _given(tree: ast.AST) -> dict[tuple[str, int], list[ast.expr]]:
     """Return what calls give to each function at each place."""
     found: dict[tuple[str, int], list[ast.expr]] = {}
-    for node in walk(tree):
-        if isinstance(node, ast.Call):
-            for place, each in enumerate(node.args):
-                found.setdefault((last_name(node.func), place), []).append(each)
+    for node in nodes_of(tree, ast.Call):
+        for place, each in enumerate(node.args):
+            found.setdefault((last_name(node.func), place), []).append(each)
     return found
 
 

@@ -6,7 +6,17 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, called, functions, last_name, set_to, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
 
 # Position of each callback among the arguments; -1 for those that are given by name only.
 PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
@@ -22,14 +32,14 @@ ANSWERS = {"goal_callback": "GoalResponse", "cancel_callback": "CancelResponse"}
 
 def _callbacks(tree: ast.AST) -> Iterator[tuple[str, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda]]:
     """Yield the role and the function of each callback that is passed to an ActionServer."""
-    functions = {n.name: n for n in walk(tree) if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)}
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or ast.unparse(node.func).rpartition(".")[2] != "ActionServer":
+    functions = {n.name: n for n in nodes_of(tree, ast.FunctionDef, ast.AsyncFunctionDef)}
+    for node in nodes_of(tree, ast.Call):
+        if unparse(node.func).rpartition(".")[2] != "ActionServer":
             continue
         given = {each.arg: each.value for each in node.keywords if each.arg in PLACES}
         given |= {role: node.args[i] for role, i in PLACES.items() if 0 <= i < len(node.args)}
         for role, value in given.items():
-            name = ast.unparse(value).rpartition(".")[2]
+            name = unparse(value).rpartition(".")[2]
             if isinstance(value, ast.Lambda):
                 yield str(role), value
             elif name in functions:
@@ -41,11 +51,11 @@ def _returned(function: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> 
         return [function.body]
     inner = {
         id(each)
-        for node in walk(function)
-        if isinstance(node, ast.FunctionDef | ast.Lambda) and node is not function
+        for node in nodes_of(function, ast.FunctionDef, ast.Lambda)
+        if node is not function
         for each in walk(node)
     }
-    return [each.value for each in walk(function) if isinstance(each, ast.Return) and id(each) not in inner]
+    return [each.value for each in nodes_of(function, ast.Return) if id(each) not in inner]
 
 
 def answers(tree: ast.AST) -> Iterator[Place]:
@@ -63,7 +73,7 @@ def answers(tree: ast.AST) -> Iterator[Place]:
             or (isinstance(each, ast.Attribute) and last_name(each.value) in others)
         ]
         if wrong or not returned:
-            what = ast.unparse(wrong[0]) if wrong and wrong[0] is not None else "nothing"
+            what = unparse(wrong[0]) if wrong and wrong[0] is not None else "nothing"
             yield (
                 wrong[0].lineno if wrong and wrong[0] is not None else function.lineno,
                 f"{role} returns {what[:40]}, which is no answer, so it counts as a refusal: return {kind}.ACCEPT or "
@@ -81,7 +91,7 @@ def no_result(tree: ast.AST) -> Iterator[Place]:
             )
         elif role == "execute_callback" and isinstance(function, ast.FunctionDef):
             inside = {id(n) for f in functions(function) if f is not function for n in walk(f)}
-            for node in (each for each in walk(function) if isinstance(each, ast.Return)):
+            for node in nodes_of(function, ast.Return):
                 if node.value is None and id(node) not in inside:
                     yield (
                         node.lineno,
@@ -100,15 +110,15 @@ def no_message_as_result(tree: ast.AST) -> Iterator[Place]:
             name for name, given in values.items() if any(last_name(_callee(each)) == "Result" for each in given)
         }
         for value in _returned(function):
-            owner = ast.unparse(value.value) if isinstance(value, ast.Attribute) else ""
-            counted = values.get(ast.unparse(value), []) if isinstance(value, ast.Name) else [value]
+            owner = unparse(value.value) if isinstance(value, ast.Attribute) else ""
+            counted = values.get(unparse(value), []) if isinstance(value, ast.Name) else [value]
             number = bool(counted) and all(
                 isinstance(each, ast.Constant) and each.value is not None for each in counted
             )
             if value is not None and (owner in results or number):
                 yield (
                     value.lineno,
-                    f"execute returns `{ast.unparse(value)}`, and what it returns is the result that the client gets: "
+                    f"execute returns `{unparse(value)}`, and what it returns is the result that the client gets: "
                     "return the Result of the action, with its fields set",
                 )
 
@@ -119,11 +129,7 @@ def _callee(node: ast.expr) -> ast.expr:
 
 def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that waits in execute, in a node with one thread; a coroutine without await is no other."""
-    names = {
-        ast.unparse(node.func).rpartition(".")[2]
-        for node in walk(tree)
-        if isinstance(node, ast.Call) and not _one_thread(node)
-    }
+    names = {unparse(node.func).rpartition(".")[2] for node in nodes_of(tree, ast.Call) if not _one_thread(node)}
     if names & {"MultiThreadedExecutor", "Thread", "spin_once", "spin_some", "start_new_thread"} or "spin" not in names:
         return
     for role, function in _callbacks(tree):
@@ -131,7 +137,7 @@ def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
             continue
         if any(isinstance(each, ast.Await | ast.AsyncFor | ast.AsyncWith) for each in walk(function)):
             continue
-        loop = next((each for each in walk(function) if isinstance(each, ast.While)), None)
+        loop = next(iter(nodes_of(function, ast.While)), None)
         if loop is not None and isinstance(function, ast.AsyncFunctionDef) and not called(loop) >= DRIVES:
             continue
         if loop is not None:
@@ -145,15 +151,15 @@ def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
 def _one_thread(call: ast.Call) -> bool:
     """Return whether a call makes an executor of many threads with a single one."""
     given = [*call.args[:1], *(each.value for each in call.keywords if each.arg == "num_threads")]
-    many = ast.unparse(call.func).rpartition(".")[2] == "MultiThreadedExecutor"
+    many = unparse(call.func).rpartition(".")[2] == "MultiThreadedExecutor"
     return many and any(isinstance(each, ast.Constant) and each.value == 1 for each in given)
 
 
 def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
     """Find a goal that is ended in the callback that only answers whether it may be cancelled."""
     for role, function in _callbacks(tree):
-        for call in (each for each in walk(function) if isinstance(each, ast.Call)):
-            name = ast.unparse(call.func)
+        for call in nodes_of(function, ast.Call):
+            name = unparse(call.func)
             if role == "cancel_callback" and name.rpartition(".")[2] == "canceled":
                 yield (
                     call.lineno,
@@ -165,9 +171,9 @@ def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
 def spins_itself(tree: ast.AST) -> Iterator[Place]:
     """Find an execute callback that spins the node it belongs to."""
     for role, function in _callbacks(tree):
-        for call in (each for each in walk(function) if isinstance(each, ast.Call)):
-            name = ast.unparse(call.func)
-            if role == "execute_callback" and name in SPINS and call.args and ast.unparse(call.args[0]) == "self":
+        for call in nodes_of(function, ast.Call):
+            name = unparse(call.func)
+            if role == "execute_callback" and name in SPINS and call.args and unparse(call.args[0]) == "self":
                 yield (
                     call.lineno,
                     f"{name}(self, ...) inside of a callback takes the node away from the executor that spins it, and "
@@ -179,7 +185,7 @@ def spins_itself(tree: ast.AST) -> Iterator[Place]:
 def never_executed(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for accepted goals that does not execute them."""
     for role, function in _callbacks(tree):
-        if role == "handle_accepted_callback" and not re.search(r"\bexecute\b|notify_execute", ast.unparse(function)):
+        if role == "handle_accepted_callback" and not re.search(r"\bexecute\b|notify_execute", unparse(function)):
             yield (
                 function.lineno,
                 "handle_accepted_callback takes over what happens to an accepted goal, and this one never calls "
@@ -197,7 +203,7 @@ def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
             call = statement.value if isinstance(statement, ast.Expr) else None
             if loop is None or statement.lineno >= loop.lineno or not isinstance(call, ast.Call):
                 continue
-            name = ast.unparse(call.func)
+            name = unparse(call.func)
             if name.rpartition(".")[2] in ENDS:
                 yield (
                     statement.lineno,
@@ -212,7 +218,7 @@ def without_a_pause(tree: ast.AST) -> Iterator[Place]:
     for role, function in _callbacks(tree):
         if role != "execute_callback" or isinstance(function, ast.Lambda):
             continue
-        inner = (each for each in walk(function) if isinstance(each, ast.While))
+        inner = nodes_of(function, ast.While)
         for loop in inner:
             if called(loop) & (SPEAKS | speaking) and not _pauses(loop) and not called(loop) & sleeping:
                 yield (
@@ -230,10 +236,10 @@ def _pauses(node: ast.AST) -> bool:
 
 def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
     """Find a lock that is held while a loop sleeps, in a file where a callback waits for the same lock."""
-    made = {ast.unparse(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in LOCKS}
-    for function in (each for each in walk(tree) if isinstance(each, ast.FunctionDef)):
+    made = {unparse(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in LOCKS}
+    for function in nodes_of(tree, ast.FunctionDef):
         for lock, line, held in _held(function):
-            loops = (n for part in held for n in walk(part) if isinstance(n, ast.While | ast.For))
+            loops = (n for part in held for n in nodes_of(part, ast.While, ast.For))
             sleeps = any("sleep" in called(loop) for loop in loops)
             others = (each for each in functions(tree) if each is not function)
             waits = next((each for each in others if any(name == lock for name, _, _ in _held(each))), None)
@@ -247,16 +253,15 @@ def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
 
 def _held(function: ast.FunctionDef) -> Iterator[tuple[str, int, list[ast.stmt]]]:
     """Yield each lock that a function takes, the line, and the statements that run while it holds the lock."""
-    for node in walk(function):
-        if isinstance(node, ast.With):
-            for item in node.items:
-                yield ast.unparse(item.context_expr), node.lineno, node.body
+    for node in nodes_of(function, ast.With):
+        for item in node.items:
+            yield unparse(item.context_expr), node.lineno, node.body
     for number, statement in enumerate(function.body):
         call = statement.value if isinstance(statement, ast.Expr) else None
         if isinstance(call, ast.Call) and last_name(call.func) == "acquire":
-            lock, held = ast.unparse(call.func).rpartition(".")[0], []
+            lock, held = unparse(call.func).rpartition(".")[0], []
             for later in function.body[number + 1 :]:
-                if f"{lock}.release()" in ast.unparse(later):
+                if f"{lock}.release()" in unparse(later):
                     break
                 held.append(later)
             yield lock, statement.lineno, held

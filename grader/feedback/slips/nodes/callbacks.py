@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, walk
+from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse
 
 # Method -> position of its callback.
 CREATE = {
@@ -16,10 +16,8 @@ CREATE = {
 
 def handed_over(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
     """Yield each call that takes a callback, with the callback."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Call):
-            continue
-        place = CREATE.get(ast.unparse(node.func).rpartition(".")[2])
+    for node in nodes_of(tree, ast.Call):
+        place = CREATE.get(unparse(node.func).rpartition(".")[2])
         if place is None:
             continue
         named = [each.value for each in node.keywords if each.arg in ("callback", "execute_callback")]
@@ -29,11 +27,11 @@ def handed_over(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 def called_at_once(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that is called where it should be passed."""
-    functions = {node.name: node for node in walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)}
+    functions = {node.name: node for node in nodes_of(tree, ast.FunctionDef, ast.AsyncFunctionDef)}
     for call, given in handed_over(tree):
         if not isinstance(given, ast.Call):
             continue
-        function = ast.unparse(given.func)
+        function = unparse(given.func)
         own = functions.get(function.rpartition(".")[2])
         if own is not None and _returns_something(own):
             continue  # it may well return a function
@@ -46,25 +44,24 @@ def called_at_once(tree: ast.AST) -> Iterator[Place]:
         elif own is not None or function.endswith(".publish"):
             yield (
                 call.lineno,
-                f"{ast.unparse(given)[:60]} is called at once, and its result, None, is passed as the callback: "
-                f"lambda: {ast.unparse(given)[:60]} is called later",
+                f"{unparse(given)[:60]} is called at once, and its result, None, is passed as the callback: "
+                f"lambda: {unparse(given)[:60]} is called later",
             )
 
 
 def _returns_something(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
-    returned = [node for node in walk(function) if isinstance(node, ast.Return)]
-    return any(node.value is not None and ast.unparse(node.value) != "None" for node in returned)
+    returned = [node for node in nodes_of(function, ast.Return)]
+    return any(node.value is not None and unparse(node.value) != "None" for node in returned)
 
 
 def not_called_in_a_lambda(tree: ast.AST) -> Iterator[Place]:
     """Find `lambda: self.tick`, which names the function and does not call it."""
     for _, given in handed_over(tree):
         if isinstance(given, ast.Lambda) and isinstance(given.body, ast.Attribute | ast.Name):
-            name = ast.unparse(given.body)
+            name = unparse(given.body)
             yield (
                 given.lineno,
-                f"{ast.unparse(given)} names {name} and does not call it: pass {name} itself, or write "
-                f"lambda: {name}()",
+                f"{unparse(given)} names {name} and does not call it: pass {name} itself, or write lambda: {name}()",
             )
 
 
@@ -72,16 +69,16 @@ def texts_for_callbacks(tree: ast.AST) -> Iterator[Place]:
     """Find the name of a function in quotes, or None, where the function belongs."""
     for call, given in handed_over(tree):
         if isinstance(given, ast.Constant) and (given.value is None or isinstance(given.value, str)):
-            value = ast.unparse(given)
+            value = unparse(given)
             yield call.lineno, f"{value} is given where the callback is needed: pass the function itself, self.NAME"
 
 
 def async_publish(tree: ast.AST) -> Iterator[Place]:
     """Find a call of the file's own `async def` that nobody awaits: it does not run."""
-    own = {node.name for node in walk(tree) if isinstance(node, ast.AsyncFunctionDef)}
-    for node in walk(tree):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
-            name = ast.unparse(node.value.func)
+    own = {node.name for node in nodes_of(tree, ast.AsyncFunctionDef)}
+    for node in nodes_of(tree, ast.Expr):
+        if isinstance(node.value, ast.Call):
+            name = unparse(node.value.func)
             if name.removeprefix("self.") in own:
                 yield (
                     node.lineno,

@@ -5,29 +5,29 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, called, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, called, nodes_of, unparse
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 def once_before_any_message(tree: ast.AST) -> Iterator[Place]:
     """Find `self.control()` in `__init__`, the only call of a method that returns while an attribute is None."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         methods = {node.name: node for node in owner.body if isinstance(node, Function)}
         start = methods.get("__init__")
         if start is None or "create_subscription" not in called(owner):
             continue
-        none = {ast.unparse(t) for t, value in assigned(start) if isinstance(value, ast.Constant) and not value.value}
+        none = {unparse(t) for t, value in assigned(start) if isinstance(value, ast.Constant) and not value.value}
         for statement in start.body:
             call = statement.value if isinstance(statement, ast.Expr) else None
             if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
                 continue
             name = call.func.attr
             method = methods.get(name)
-            if method is None or ast.unparse(call.func.value) != "self" or "publish" not in called(method):
+            if method is None or unparse(call.func.value) != "self" or "publish" not in called(method):
                 continue
             missing = _awaited(method, none)
-            used = [n for n in walk(tree) if isinstance(n, ast.Attribute) and n.attr == name]
+            used = [n for n in nodes_of(tree, ast.Attribute) if n.attr == name]
             if missing and len(used) == 1 and "spin_once" not in called(start):
                 yield (
                     call.lineno,
@@ -40,8 +40,8 @@ def _awaited(method: Function, none: set[str]) -> str:
     """Return the attribute without which a method returns at its beginning; empty if there is none."""
     for statement in method.body[:3]:
         if isinstance(statement, ast.If) and any(isinstance(each, ast.Return) for each in statement.body):
-            asked = {ast.unparse(each) for each in walk(statement.test) if isinstance(each, ast.Attribute)}
-            test = ast.unparse(statement.test)
+            asked = {unparse(each) for each in nodes_of(statement.test, ast.Attribute)}
+            test = unparse(statement.test)
             names = [each for each in sorted(asked & none) if f"{each} is None" in test or f"not {each}" in test]
             if names:
                 return names[0]

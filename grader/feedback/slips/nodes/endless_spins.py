@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, walk
+from gz_course.grader.feedback.facts.syntax import Place, called, calls, nodes_of, unparse, walk
 
 ENDS = frozenset({"BaseException", "KeyboardInterrupt"})
 LEAVES = ast.Break | ast.Return | ast.Raise
@@ -14,17 +14,17 @@ EXITS = frozenset({"exit", "_exit", "quit", "abort"})
 
 def never_ends(tree: ast.AST) -> Iterator[Place]:
     """Find `while True` with a `try` inside that spins, catches KeyboardInterrupt and goes on."""
-    for loop in (node for node in walk(tree) if isinstance(node, ast.While)):
+    for loop in nodes_of(tree, ast.While):
         if not isinstance(loop.test, ast.Constant) or not loop.test.value:
             continue
-        for node in (each for each in walk(loop) if isinstance(each, ast.Try)):
+        for node in nodes_of(loop, ast.Try):
             spins = any(name.startswith("spin") for part in node.body for name in called(part))
             for handler in node.handlers if spins else ():
                 if not _catches(handler):
                     continue
                 leaves = any(isinstance(each, LEAVES) for each in walk(handler)) or called(handler) & EXITS
                 if not leaves and not _asks_whether_ok(loop):
-                    caught = ast.unparse(handler.type) if handler.type else "without a name"
+                    caught = unparse(handler.type) if handler.type else "without a name"
                     yield (
                         handler.lineno,
                         f"this except ({caught}) catches the KeyboardInterrupt of Ctrl-C, and the loop of line "
@@ -41,7 +41,7 @@ def _catches(handler: ast.ExceptHandler) -> bool:
 
 
 def _asks_whether_ok(loop: ast.While) -> bool:
-    tests = [node.test for node in walk(loop) if isinstance(node, ast.If)]
+    tests = [node.test for node in nodes_of(loop, ast.If)]
     return any("ok" in called(test) for test in tests)
 
 
@@ -53,16 +53,16 @@ def spins_too_little(tree: ast.AST) -> Iterator[Place]:
     if not programs or any(name.startswith("spin") and name != "spin_once" for name in names):
         return
     if "spin_once" not in names:
-        if "spin" not in ast.unparse(tree):
+        if "spin" not in unparse(tree):
             yield (
                 made[0].lineno,
                 "nothing in this file spins the node, so this callback never runs: rclpy.spin(node) comes after the "
                 "node is made",
             )
         return
-    loops = [node for node in walk(tree) if isinstance(node, ast.While | ast.For)]
+    loops = [node for node in nodes_of(tree, ast.While, ast.For)]
     looped = {name for loop in loops for name in called(loop)}
-    spinning = {node.name for node in walk(tree) if isinstance(node, ast.FunctionDef) and "spin_once" in called(node)}
+    spinning = {node.name for node in nodes_of(tree, ast.FunctionDef) if "spin_once" in called(node)}
     if not looped & (spinning | {"spin_once"}):
         yield (
             next(call.lineno for call, name in calls(tree) if name == "spin_once"),

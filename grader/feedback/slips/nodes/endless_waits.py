@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "ThreadPoolExecutor", "Process"})
@@ -26,21 +36,21 @@ def waits_for_another_callback(tree: ast.AST) -> Iterator[Place]:
     }
     for function in (own[name] for name in own if name in running):
         heard = {
-            ast.unparse(target)
+            unparse(target)
             for name in listening & own.keys()
             if name != function.name
             for target, _ in assigned(own[name])
             if isinstance(target, ast.Attribute)
         }
         setting = {name for name, each in own.items() if any(isinstance(t, ast.Attribute) for t, _ in assigned(each))}
-        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
+        for loop in nodes_of(function, ast.While):
             if called(loop) & (PROGRESS | setting) or _leaves(loop):
                 continue
             changed: dict[str, set[str]] = {}
             for target, value in assigned(loop):
-                for each in (node for node in walk(target) if isinstance(node, ast.Name | ast.Attribute)):
-                    changed.setdefault(ast.unparse(each), set()).update(_read(value))
-            stepping = {ast.unparse(node.target) for node in walk(loop) if isinstance(node, ast.AugAssign)}
+                for each in nodes_of(target, ast.Name, ast.Attribute):
+                    changed.setdefault(unparse(each), set()).update(_read(value))
+            stepping = {unparse(node.target) for node in nodes_of(loop, ast.AugAssign)}
             tested = _read(loop.test)
             for name in tested & changed.keys():
                 tested |= changed[name]
@@ -48,7 +58,7 @@ def waits_for_another_callback(tree: ast.AST) -> Iterator[Place]:
                 name = sorted(tested & heard)[0]
                 yield (
                     loop.lineno,
-                    f"the loop `while {ast.unparse(loop.test)[:60]}` in the callback {function.name} waits for {name}, "
+                    f"the loop `while {unparse(loop.test)[:60]}` in the callback {function.name} waits for {name}, "
                     "which only another callback sets, and none runs before this one has returned: it never ends. "
                     "Publish a command and return, and look again in the next call",
                 )
@@ -60,7 +70,7 @@ def _leaves(loop: ast.While) -> bool:
 
 
 def _read(node: ast.AST) -> set[str]:
-    return {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)} - {"self"}
+    return {unparse(each) for each in nodes_of(node, ast.Name, ast.Attribute)} - {"self"}
 
 
 def _circular(changed: dict[str, set[str]], tested: set[str]) -> bool:

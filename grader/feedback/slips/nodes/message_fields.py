@@ -9,16 +9,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping
 
-from gz_course.grader.feedback.facts.syntax import Place, walk
+from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 
 def unknown_fields(tree: ast.AST, fields: Mapping[str, list[str]]) -> Iterator[Place]:
     others, modules = _other_owners(tree), _modules(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.Call):
-            continue
-        owner, _, kind = ast.unparse(node.func).rpartition(".")
+    for node in nodes_of(tree, ast.Call):
+        owner, _, kind = unparse(node.func).rpartition(".")
         foreign = not (owner.endswith(".msg") or owner in modules) if owner else kind in others
         known = [] if foreign else fields.get(kind, [])
         for word in node.keywords if known else ():
@@ -51,7 +49,6 @@ def _other_owners(tree: ast.AST) -> set[str]:
 def _modules(tree: ast.AST) -> set[str]:
     """Return the names under which a file knows whole modules of messages."""
     found = {"msg"}
-    for node in walk(tree):
-        if isinstance(node, ast.Import | ast.ImportFrom):
-            found |= {each.asname for each in node.names if each.asname and each.name.rpartition(".")[2] == "msg"}
+    for node in nodes_of(tree, ast.Import, ast.ImportFrom):
+        found |= {each.asname for each in node.names if each.asname and each.name.rpartition(".")[2] == "msg"}
     return found

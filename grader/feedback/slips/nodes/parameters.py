@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from gz_course.grader.feedback.facts.ros_parameters import ASKS, declared, listeners, members, objects, owners, reads
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse, walk
 from gz_course.sim.did_you_mean import nearest_name
 
 RESULT = "SetParametersResult"
@@ -19,14 +19,14 @@ CASES = frozenset({"lower", "upper", "capitalize", "title", "casefold"})
 
 def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for changes of parameters that returns nothing, or a truth value."""
-    functions = {node.name: node for node in walk(tree) if isinstance(node, ast.FunctionDef)}
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or not ast.unparse(node.func).endswith("add_on_set_parameters_callback"):
+    functions = {node.name: node for node in nodes_of(tree, ast.FunctionDef)}
+    for node in nodes_of(tree, ast.Call):
+        if not unparse(node.func).endswith("add_on_set_parameters_callback"):
             continue
-        name = ast.unparse(node.args[0]).rpartition(".")[2] if node.args else ""
+        name = unparse(node.args[0]).rpartition(".")[2] if node.args else ""
         if name not in functions:
             continue
-        returned = [each.value for each in walk(functions[name]) if isinstance(each, ast.Return)]
+        returned = [each.value for each in nodes_of(functions[name], ast.Return)]
         if all(value is None or isinstance(value, ast.Constant) for value in returned):
             yield (
                 functions[name].lineno,
@@ -37,20 +37,20 @@ def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
 
 def results_that_refuse(tree: ast.AST) -> Iterator[Place]:
     """Find `return SetParametersResult()`, whose field `successful` is False."""
-    if ".successful" in ast.unparse(tree):
+    if ".successful" in unparse(tree):
         return
     for call, name in calls(tree):
         if name == RESULT and not call.args and not any(each.arg in ("successful", None) for each in call.keywords):
             yield (
                 call.lineno,
-                f"{ast.unparse(call)[:60]} refuses the new value, because its field successful is False: "
+                f"{unparse(call)[:60]} refuses the new value, because its field successful is False: "
                 f"{RESULT}(successful=True) accepts it",
             )
 
 
 def callbacks_that_nobody_calls(tree: ast.AST) -> Iterator[Place]:
     """Find a function that answers with a SetParametersResult in a file that registers none."""
-    if "_set_parameters_callback" in ast.unparse(tree):
+    if "_set_parameters_callback" in unparse(tree):
         return
     for function in functions(tree):
         if any(name == RESULT for _, name in calls(function)):
@@ -73,17 +73,17 @@ def objects_for_values(tree: ast.AST) -> Iterator[Place]:
                     never = isinstance(node.ops[0], ast.Eq | ast.In)
                     yield (
                         node.lineno,
-                        f"{ast.unparse(node)[:70]} {'never' if never else 'always'} holds: {what}",
+                        f"{unparse(node)[:70]} {'never' if never else 'always'} holds: {what}",
                     )
         elif isinstance(node, ast.If | ast.IfExp | ast.While):
             test = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
             if what := _what(test, held):
-                yield node.test.lineno, f"{ast.unparse(test)[:70]} always counts as true: {what}"
+                yield node.test.lineno, f"{unparse(test)[:70]} always counts as true: {what}"
 
 
 def _what(node: ast.expr, held: set[str]) -> str:
     """Say which object an expression is that is not the value of a parameter; empty if it is none."""
-    text = ast.unparse(node)
+    text = unparse(node)
     if isinstance(node, ast.Call):
         name = last_name(node.func)
         if name in ASKS:
@@ -96,7 +96,7 @@ def _what(node: ast.expr, held: set[str]) -> str:
         if name == "str" and len(node.args) == 1 and _what(node.args[0], held):
             return (
                 "str() of a Parameter describes the object, with its name and its type: "
-                f"{ast.unparse(node.args[0])[:60]}.value is the value"
+                f"{unparse(node.args[0])[:60]}.value is the value"
             )
     if isinstance(node, ast.Name | ast.Attribute) and text in held:
         return f"{text} is a Parameter, an object, and its value is {text}.value"
@@ -114,18 +114,18 @@ def objects_for_names(tree: ast.AST) -> Iterator[Place]:
     for function in listeners(tree):
         single = members(function)
         whole = {each.arg for each in function.args.args} - {"self"}
-        for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
-            left, right = ast.unparse(node.left), node.comparators[0]
+        for node in nodes_of(function, ast.Compare):
+            left, right = unparse(node.left), node.comparators[0]
             if left in single and isinstance(node.ops[0], ast.Eq | ast.In) and _plain(right):
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]} never holds: {left} is a Parameter, an object with a name and a value; "
+                    f"{unparse(node)[:60]} never holds: {left} is a Parameter, an object with a name and a value; "
                     f"compare {left}.name",
                 )
-            elif isinstance(node.ops[0], ast.In) and _plain(node.left) and ast.unparse(right) in whole:
+            elif isinstance(node.ops[0], ast.In) and _plain(node.left) and unparse(right) in whole:
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]} never holds: {ast.unparse(right)} is a list of Parameter objects, not "
+                    f"{unparse(node)[:60]} never holds: {unparse(right)} is a list of Parameter objects, not "
                     "of names; go through it, and compare the .name of each",
                 )
 
@@ -137,8 +137,7 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
     own = {
         function.name
         for function in functions(tree)
-        for each in walk(function)
-        if isinstance(each, ast.Return) and isinstance(each.value, ast.Call)
+        for each in nodes_of(function, ast.Return) if isinstance(each.value, ast.Call)
         and last_name(each.value.func) == "get_parameter_value"
     }  # fmt: skip
     for node in walk(tree):
@@ -166,13 +165,13 @@ def whole_numbers_of_doubles(tree: ast.AST) -> Iterator[Place]:
     """Find `int(self.get_parameter('distance').value)` of a parameter whose default is not a whole number."""
     values = _values(tree, float)
     for call, name in calls(tree):
-        given = ast.unparse(call.args[0]) if name in ("int", "round") and len(call.args) == 1 else ""
+        given = unparse(call.args[0]) if name in ("int", "round") and len(call.args) == 1 else ""
         default = values.get(given)
         if isinstance(default, float) and default != int(default):
             cut = int(default) if name == "int" else round(default)
             yield (
                 call.lineno,
-                f"{ast.unparse(call)[:60]} makes a whole number of a parameter, {cut} of {default:g}: leave the "
+                f"{unparse(call)[:60]} makes a whole number of a parameter, {cut} of {default:g}: leave the "
                 "value as it is",
             )
 
@@ -180,15 +179,13 @@ def whole_numbers_of_doubles(tree: ast.AST) -> Iterator[Place]:
 def texts_for_truth(tree: ast.AST) -> Iterator[Place]:
     """Find `1 if side else -1` where side is a text, which counts as true whatever it says."""
     values = _values(tree, str)
-    for node in walk(tree):
-        if not isinstance(node, ast.If | ast.IfExp | ast.While):
-            continue
+    for node in nodes_of(tree, ast.If, ast.IfExp, ast.While):
         test = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
-        default = values.get(ast.unparse(test))
+        default = values.get(unparse(test))
         if default:
             yield (
                 node.test.lineno,
-                f"{ast.unparse(test)[:60]} is a text and counts as true whatever it says: compare it, == {default!r}",
+                f"{unparse(test)[:60]} is a text and counts as true whatever it says: compare it, == {default!r}",
             )
 
 
@@ -201,12 +198,12 @@ def _values(tree: ast.AST, kind: type) -> dict[str, object]:
         for name, (_, default) in (declared(tree) or {}).items()
         if isinstance(default, ast.Constant) and type(default.value) is kind
     }
-    for node in walk(tree):
-        if isinstance(node, ast.Attribute) and node.attr == "value" and asked.get(id(node.value), "") in defaults:
-            found[ast.unparse(node)] = defaults[asked[id(node.value)]]
+    for node in nodes_of(tree, ast.Attribute):
+        if node.attr == "value" and asked.get(id(node.value), "") in defaults:
+            found[unparse(node)] = defaults[asked[id(node.value)]]
     held: dict[str, list[object]] = {}
     for target, value in assigned(tree):
-        held.setdefault(ast.unparse(target), []).append(found.get(ast.unparse(value)))
+        held.setdefault(unparse(target), []).append(found.get(unparse(value)))
     found.update({name: given[0] for name, given in held.items() if given[0] is not None and None not in given})
     return found
 
@@ -222,8 +219,7 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
         return
     texts = [
         (node, other.value)
-        for node in walk(tree)
-        if isinstance(node, ast.Compare)
+        for node in nodes_of(tree, ast.Compare)
         for other in (node.left, *node.comparators)
         if isinstance(other, ast.Constant) and isinstance(other.value, str)
     ]
@@ -233,7 +229,7 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
             if same and text != value and all(each != value for _, each in texts):
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]} never holds: the parameter {name} can be {value!r}, and {text!r} is "
+                    f"{unparse(node)[:60]} never holds: the parameter {name} can be {value!r}, and {text!r} is "
                     "another text: capitals and spaces count",
                 )
 
@@ -245,17 +241,17 @@ def read_as_it_was(tree: ast.Module) -> Iterator[Place]:
         if any(last_name(call.args[0]) == function.name for call, name in calls(tree) if name == POST and call.args):
             continue
         names = {function.name} | {name for _, name in calls(function)}
-        for node in walk(tree):
-            if not isinstance(node, ast.Assign) or inside[id(node)] not in names - {"__init__"}:
+        for node in nodes_of(tree, ast.Assign):
+            if inside[id(node)] not in names - {"__init__"}:
                 continue
-            kept = ast.unparse(node.targets[0])
+            kept = unparse(node.targets[0])
             old = [call for call, _ in reads(node) if last_name(call.func) in ASKS]
             others = {inside[id(each)] for each in _keeping(tree, kept)} - names - {"__init__"}
             if kept.startswith("self.") and old and not others:
                 way = "" if inside[id(node)] == function.name else f", which calls {inside[id(node)]}(),"
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:70]} keeps the old value: {function.name}(){way} is called before the new "
+                    f"{unparse(node)[:70]} keeps the old value: {function.name}(){way} is called before the new "
                     "value is set, so get_parameter() still returns the one before; take the new one from the argument "
                     f"of {function.name}()",
                 )
@@ -266,15 +262,15 @@ def set_over_what_is_given(tree: ast.Module) -> Iterator[Place]:
     """Find a node that sets a parameter of its own in __init__ to the default that it has declared."""
     inside, known = owners(tree), declared(tree) or {}
     for call, name in calls(tree):
-        if name != "set_parameters" or inside[id(call)] != "__init__" or not ast.unparse(call.func).startswith("self."):
+        if name != "set_parameters" or inside[id(call)] != "__init__" or not unparse(call.func).startswith("self."):
             continue
-        for each in (node for node in walk(call) if isinstance(node, ast.Call) and last_name(node.func) == "Parameter"):
+        for each in (node for node in nodes_of(call, ast.Call) if last_name(node.func) == "Parameter"):
             first = each.args[0].value if each.args and isinstance(each.args[0], ast.Constant) else None
             given = [*each.args[2:], *(one.value for one in each.keywords if one.arg == "value")]
             if first in known and given and isinstance(given[0], ast.Constant):
                 yield (
                     call.lineno,
-                    f"{ast.unparse(each)[:60]} replaces the value that the node was started with: declare_parameter() "
+                    f"{unparse(each)[:60]} replaces the value that the node was started with: declare_parameter() "
                     f"has taken that for {first} already, so remove it",
                 )
                 return
@@ -287,28 +283,27 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
         single, whole = members(function), {each.arg for each in function.args.args} - {"self"}
         takes = [
             node
-            for node in walk(function)
-            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]).startswith("self.")
-            and re.fullmatch(r"(\w+)(\[0\])?\.value", ast.unparse(node.value))
-            and re.match(r"\w+", ast.unparse(node.value))[0] in single | whole  # type: ignore[index]
+            for node in nodes_of(function, ast.Assign) if unparse(node.targets[0]).startswith("self.")
+            and re.fullmatch(r"(\w+)(\[0\])?\.value", unparse(node.value))
+            and re.match(r"\w+", unparse(node.value))[0] in single | whole  # type: ignore[index]
         ]  # fmt: skip
-        code = ast.unparse(function)
+        code = unparse(function)
         seen: dict[str, ast.Assign] = {}
         for node in takes:
-            if (first := seen.setdefault(ast.unparse(node.targets[0]), node)) is not node and ".name" in code:
+            if (first := seen.setdefault(unparse(node.targets[0]), node)) is not node and ".name" in code:
                 yield (
                     node.lineno,
-                    f"{ast.unparse(node)[:60]} puts the value of another parameter into what line {first.lineno} "
+                    f"{unparse(node)[:60]} puts the value of another parameter into what line {first.lineno} "
                     "sets: each parameter needs an attribute of its own",
                 )
         if takes and len(known) > 1 and ".name" not in code and "continue" not in code:
-            yield takes[0].lineno, _any(ast.unparse(takes[0]), sorted(known))
+            yield takes[0].lineno, _any(unparse(takes[0]), sorted(known))
             continue
-        for test in (each for each in walk(function) if isinstance(each, ast.If)):
+        for test in nodes_of(function, ast.If):
             excluded, last = _chain(test)
             left = sorted(known - excluded)
             other = next((each for each in takes if any(each is node for node in last)), None)
-            above = any(each is not test and test in each.orelse for each in walk(function) if isinstance(each, ast.If))
+            above = any(each is not test and test in each.orelse for each in nodes_of(function, ast.If))
             if (
                 other is not None
                 and excluded
@@ -316,7 +311,7 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
                 and not above
                 and not re.search("continue|return", code.rpartition("return")[0])
             ):
-                yield other.lineno, _any(ast.unparse(other), left)
+                yield other.lineno, _any(unparse(other), left)
                 break
 
 
@@ -332,7 +327,7 @@ def _chain(test: ast.If) -> tuple[set[str], list[ast.stmt]]:
     names: set[str] = set()
     while True:
         if isinstance(test.test, ast.Compare) and last_name(test.test.left) == "name":
-            names |= {str(each.value) for each in walk(test.test.comparators[0]) if isinstance(each, ast.Constant)}
+            names |= {str(each.value) for each in nodes_of(test.test.comparators[0], ast.Constant)}
         if len(test.orelse) != 1 or not isinstance(test.orelse[0], ast.If):
             return names, test.orelse
         test = test.orelse[0]
@@ -340,8 +335,8 @@ def _chain(test: ast.If) -> tuple[set[str], list[ast.stmt]]:
 
 def _keeping(tree: ast.AST, name: str) -> Iterator[ast.Assign]:
     """Yield each assignment to a name."""
-    for node in walk(tree):
-        if isinstance(node, ast.Assign) and name in [ast.unparse(each) for each in node.targets]:
+    for node in nodes_of(tree, ast.Assign):
+        if name in [unparse(each) for each in node.targets]:
             yield node
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, unparse, walk
 
 BEGINNINGS = frozenset({"__init__", "main"})
 WAITS = frozenset({"spin", "spin_once", "sleep", "wait", "get_subscription_count"})
@@ -31,12 +31,12 @@ def made_for_one_message(tree: ast.AST) -> Iterator[Place]:
         if function.name in BEGINNINGS or nested or WAITS & called(function):
             continue
         made = {
-            ast.unparse(node.targets[0]): node.lineno
+            unparse(node.targets[0]): node.lineno
             for node in function.body
             if isinstance(node, ast.Assign) and "create_publisher" in called(node.value)
         }
         sends = {
-            ast.unparse(call.func.value)
+            unparse(call.func.value)
             for call, name in calls(function)
             if name == "publish" and isinstance(call.func, ast.Attribute)
         }

@@ -10,7 +10,18 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import Place, Places, called, calls, functions, last_name, places_in, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Places,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    places_in,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
@@ -33,7 +44,7 @@ def new_buffers(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         if function.name not in handed:
             continue
-        guarded = {id(inner) for node in walk(function) if isinstance(node, ast.If) for inner in walk(node)}
+        guarded = {id(inner) for node in nodes_of(function, ast.If) for inner in walk(node)}
         for call, name in calls(function):
             if name in ("Buffer", "TransformListener") and id(call) not in guarded:
                 yield (
@@ -46,8 +57,8 @@ def new_buffers(tree: ast.AST) -> Iterator[Place]:
 
 def no_listener(tree: ast.AST) -> Iterator[Place]:
     """Find a buffer that nothing fills."""
-    names = {node.id for node in walk(tree) if isinstance(node, ast.Name)}
-    names |= {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
+    names = {node.id for node in nodes_of(tree, ast.Name)}
+    names |= {node.attr for node in nodes_of(tree, ast.Attribute)}
     if "Buffer" not in names or not names & ASKED or names & {"TransformListener", "set_transform"}:
         return
     for call, name in calls(tree):
@@ -66,14 +77,14 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
     handed = callbacks(tree)
     for function in functions(tree):
         spins = [call for call, name in calls(function) if function.name in handed and name in SPINS]
-        for call in (each for each in spins if ast.unparse(each.func).startswith("rclpy.")):
+        for call in (each for each in spins if unparse(each.func).startswith("rclpy.")):
             yield (
                 call.lineno,
-                f"{ast.unparse(call.func)}() in the callback {function.name}: a callback is called by spin(), and "
+                f"{unparse(call.func)}() in the callback {function.name}: a callback is called by spin(), and "
                 "inside of it the node cannot be spun again; return, and try again in the next call",
             )
-        for node in walk(function):
-            if not isinstance(node, ast.While) or function.name in ("main", "__init__"):
+        for node in nodes_of(function, ast.While):
+            if function.name in ("main", "__init__"):
                 continue
             asks = any(name in ASKED for call, name in calls(node))
             if asks and not any(name in SPINS for call, name in calls(node)) and _endless(node):
@@ -96,13 +107,9 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
     for function in functions(tree):
         if not {each.arg for each in function.args.args} - {"self"}:
             continue  # a timer may be called when a transform has just come
-        now = {
-            ast.unparse(node.targets[0])
-            for node in walk(function)
-            if isinstance(node, ast.Assign) and _is_now(node.value)
-        }
+        now = {unparse(node.targets[0]) for node in nodes_of(function, ast.Assign) if _is_now(node.value)}
         for call, time in _lookups(function):
-            if time is not None and (_is_now(time) or ast.unparse(time) in now) and len(call.args) <= 3:
+            if time is not None and (_is_now(time) or unparse(time) in now) and len(call.args) <= 3:
                 yield (
                     call.lineno,
                     f"{last_name(call.func)}() asks for the transform of this very moment, now(), which has not come "
@@ -112,7 +119,7 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
 
 def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
     """Find can_transform() of the latest transform before a lookup, not in a try, at the time of a message."""
-    tried = {id(n) for each in walk(tree) if isinstance(each, ast.Try) for part in each.body for n in walk(part)}
+    tried = {id(n) for each in nodes_of(tree, ast.Try) for part in each.body for n in walk(part)}
     asked: list[tuple[ast.Call, ast.expr | None]] = []
     looked: list[tuple[ast.Call, ast.expr | None]] = []
     for call, time in _lookups(tree):
@@ -130,7 +137,7 @@ def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
 
 
 def _source(call: ast.Call) -> str:
-    return last_name(call.args[1]) or ast.unparse(call.args[1]) if len(call.args) > 1 else ""
+    return last_name(call.args[1]) or unparse(call.args[1]) if len(call.args) > 1 else ""
 
 
 def _is_latest(node: ast.expr) -> bool:
@@ -140,16 +147,16 @@ def _is_latest(node: ast.expr) -> bool:
 def into_itself(tree: ast.AST) -> Iterator[Place]:
     """Find a lookup whose two frames are the same expression."""
     for call, _ in _lookups(tree):
-        if len(call.args) >= 2 and ast.unparse(call.args[0]) == ast.unparse(call.args[1]):
+        if len(call.args) >= 2 and unparse(call.args[0]) == unparse(call.args[1]):
             yield (
                 call.lineno,
-                f"both frames of this lookup are {ast.unparse(call.args[0])[:40]}, so its transform changes nothing: "
+                f"both frames of this lookup are {unparse(call.args[0])[:40]}, so its transform changes nothing: "
                 "the first is the frame in which the result is wanted, the second that of the data",
             )
 
 
 def _is_now(node: ast.expr) -> bool:
-    text = ast.unparse(node)
+    text = unparse(node)
     return text.endswith((".now()", ".now().to_msg()"))
 
 
@@ -171,9 +178,9 @@ def lookups(content: bytes) -> Places:
 
 def _asked_for(tree: ast.Module) -> Iterator[dict[str, Any]]:
     constants = {
-        ast.unparse(node.targets[0]): node.value.value
-        for node in walk(tree)
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
+        unparse(node.targets[0]): node.value.value
+        for node in nodes_of(tree, ast.Assign)
+        if isinstance(node.value, ast.Constant)
     }
     gives_up = not _keeps_messages(tree) and not _threads(tree)
     for call, time in _lookups(tree):
@@ -183,27 +190,27 @@ def _asked_for(tree: ast.Module) -> Iterator[dict[str, Any]]:
         altered = next((text for each in [*call.args[:2], *named] if (text := _altered(each))), "")
         yield found | ({"altered": altered} if altered else {})
     for call, name in calls(tree):
-        if name == "transform" and "buf" in ast.unparse(call.func).lower() and call.args:
+        if name == "transform" and "buf" in unparse(call.func).lower() and call.args:
             yield {"line": call.lineno, "frames": _texts(call.args[1:2], constants), "gives_up": gives_up}
 
 
 def _altered(node: ast.expr) -> str:
     """Return an expression that takes a part of a frame_id, more than its first slash; empty for any other."""
-    if isinstance(node, ast.Call | ast.Subscript | ast.BinOp) and ".frame_id" in (text := ast.unparse(node)):
+    if isinstance(node, ast.Call | ast.Subscript | ast.BinOp) and ".frame_id" in (text := unparse(node)):
         return "" if "strip('/')" in text else text[:60]
     return ""
 
 
 def _texts(nodes: list[ast.expr], constants: dict[str, Any]) -> list[str]:
-    values = [each.value if isinstance(each, ast.Constant) else constants.get(ast.unparse(each)) for each in nodes]
+    values = [each.value if isinstance(each, ast.Constant) else constants.get(unparse(each)) for each in nodes]
     return [value for value in values if isinstance(value, str)]
 
 
 def _of_a_stamp(tree: ast.AST, time: ast.expr | None) -> bool:
-    texts = [] if time is None else [ast.unparse(time)]
+    texts = [] if time is None else [unparse(time)]
     for node in walk(tree):
-        if texts and isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == texts[0]:
-            texts.append(ast.unparse(node.value))
+        if texts and isinstance(node, ast.Assign) and unparse(node.targets[0]) == texts[0]:
+            texts.append(unparse(node.value))
     return any("header.stamp" in text for text in texts)
 
 
@@ -222,12 +229,11 @@ def _keeps_messages(tree: ast.AST) -> bool:
         for node in walk(function):
             if _asked_at_once(tree, function, node, given):
                 continue
-            kept = isinstance(node, ast.Call) and last_name(node.func) in KEEPS and "." in ast.unparse(node.func)
+            kept = isinstance(node, ast.Call) and last_name(node.func) in KEEPS and "." in unparse(node.func)
             kept |= isinstance(node, ast.Assign) and any(
-                isinstance(each, ast.Attribute) and ast.unparse(each).startswith("self.")
-                for each in walk(node.targets[0])
+                isinstance(each, ast.Attribute) and unparse(each).startswith("self.") for each in walk(node.targets[0])
             )
-            if kept and given & {each.id for each in walk(node) if isinstance(each, ast.Name)}:
+            if kept and given & {each.id for each in nodes_of(node, ast.Name)}:
                 return True
     return False
 
@@ -238,11 +244,11 @@ def _asked_at_once(tree: ast.AST, function: ast.FunctionDef, node: ast.AST, give
     plain = isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute)
     if not isinstance(node, ast.Assign) or not plain or node not in function.body or function.name not in subscribed:
         return False
-    kept = ast.unparse(node.targets[0])
-    if ast.unparse(node.value) not in given:
+    kept = unparse(node.targets[0])
+    if unparse(node.value) not in given:
         return False
     before = any(
-        isinstance(each, ast.Attribute) and ast.unparse(each) == kept and each.lineno < node.lineno
+        isinstance(each, ast.Attribute) and unparse(each) == kept and each.lineno < node.lineno
         for each in walk(function)
     )
     asking = [each for each in functions(tree) if any(name in ASKED for _, name in calls(each))]
@@ -257,17 +263,17 @@ def shared_headers(content: bytes) -> Places:
 
 def _shared(tree: ast.Module) -> Iterator[int]:
     for function in functions(tree):
-        assigned = [node for node in walk(function) if isinstance(node, ast.Assign)]
+        assigned = [node for node in nodes_of(function, ast.Assign)]
         same = {
-            ast.unparse(node.targets[0])
+            unparse(node.targets[0])
             for node in assigned
-            if ast.unparse(node.targets[0]).endswith(".header") and ast.unparse(node.value).endswith(".header")
+            if unparse(node.targets[0]).endswith(".header") and unparse(node.value).endswith(".header")
         }
         yield from (
             node.lineno
             for node in assigned
-            if ast.unparse(node.targets[0]).removesuffix(".frame_id") in same
-            and ast.unparse(node.targets[0]).endswith(".frame_id")
+            if unparse(node.targets[0]).removesuffix(".frame_id") in same
+            and unparse(node.targets[0]).endswith(".frame_id")
         )
 
 

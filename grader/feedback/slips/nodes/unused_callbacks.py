@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, walk
+from gz_course.grader.feedback.facts.syntax import Place, called, nodes_of, unparse
 from gz_course.grader.feedback.slips.nodes.callbacks import handed_over
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -16,7 +16,7 @@ def never_called(tree: ast.AST) -> Iterator[Place]:
     used = _mentioned(tree)
     if not any(name.startswith("spin") for name in used):
         return  # others may use this file
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         if "create_subscription" not in called(owner):
             continue
         methods = [node for node in owner.body if isinstance(node, Function)]
@@ -35,9 +35,9 @@ def never_called(tree: ast.AST) -> Iterator[Place]:
 
 def _mentioned(tree: ast.AST) -> set[str]:
     """Return all names that are read in a file, and the texts in it, by which getattr() may find a method."""
-    found = {node.attr for node in walk(tree) if isinstance(node, ast.Attribute)}
-    found |= {node.id for node in walk(tree) if isinstance(node, ast.Name)}
-    constants = [node.value for node in walk(tree) if isinstance(node, ast.Constant)]
+    found = {node.attr for node in nodes_of(tree, ast.Attribute)}
+    found |= {node.id for node in nodes_of(tree, ast.Name)}
+    constants = [node.value for node in nodes_of(tree, ast.Constant)]
     return found | {value for value in constants if isinstance(value, str)}
 
 
@@ -47,8 +47,8 @@ def _set_here_alone(method: Function, methods: list[Function], tree: ast.AST) ->
     set_elsewhere = {name for each in others if each.name != "__init__" for name in _attributes(each, ast.Store)}
     outside = {
         node.attr
-        for node in walk(tree)
-        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and ast.unparse(node.value) != "self"
+        for node in nodes_of(tree, ast.Attribute)
+        if isinstance(node.ctx, ast.Store) and unparse(node.value) != "self"
     }
     begun = {name for each in others if each.name == "__init__" for name in _attributes(each, ast.Store)}
     read = {name for each in others for name in _attributes(each, ast.Load)}
@@ -59,8 +59,8 @@ def _set_here_alone(method: Function, methods: list[Function], tree: ast.AST) ->
 def _attributes(node: ast.AST, context: type[ast.expr_context]) -> list[str]:
     return [
         each.attr
-        for each in walk(node)
-        if isinstance(each, ast.Attribute) and isinstance(each.ctx, context) and ast.unparse(each.value) == "self"
+        for each in nodes_of(node, ast.Attribute)
+        if isinstance(each.ctx, context) and unparse(each.value) == "self"
     ]
 
 
@@ -68,9 +68,9 @@ def _passed_twice(tree: ast.AST, unused: Function) -> tuple[int, str]:
     """Return the line of the second of two subscriptions with one callback, and the words on it; 0 and empty."""
     seen: dict[str, int] = {}
     for call, given in handed_over(tree):
-        if len(unused.args.args) != 2 or not ast.unparse(call.func).endswith("create_subscription"):
+        if len(unused.args.args) != 2 or not unparse(call.func).endswith("create_subscription"):
             continue
-        callback = ast.unparse(given)
+        callback = unparse(given)
         if callback in seen:
             return call.lineno, f"this subscription calls {callback}, as that of line {seen[callback]} does, and "
         seen[callback] = call.lineno

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, left_early, walk
+from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, left_early, nodes_of, unparse
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 SPINS = frozenset(
@@ -23,9 +23,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
         return
     spinning = {function.name for function in functions(tree) if SPINS & called(function)}
     for function in [each for each in functions(tree) if _runs_before_spin(each, tree)]:
-        for node in walk(function):
-            if not isinstance(node, ast.While):
-                continue
+        for node in nodes_of(function, ast.While):
             inside = called(node)
             if inside & (SPINS | spinning):
                 continue
@@ -56,28 +54,23 @@ def _runs_before_spin(function: ast.FunctionDef, tree: ast.AST) -> bool:
     text = f".{function.name}"
     handed = any(
         isinstance(node, ast.Attribute) and node.attr == function.name and isinstance(node.ctx, ast.Load)
-        for call in walk(tree)
-        if isinstance(call, ast.Call)
+        for call in nodes_of(tree, ast.Call)
         for node in [*call.args, *(each.value for each in call.keywords)]
     )
-    mains = [node for node in walk(tree) if isinstance(node, ast.FunctionDef) and node.name == "main"]
-    return not handed and any(function.name in called(main) or text in ast.unparse(main) for main in mains)
+    mains = [node for node in nodes_of(tree, ast.FunctionDef) if node.name == "main"]
+    return not handed and any(function.name in called(main) or text in unparse(main) for main in mains)
 
 
 def rates(tree: ast.AST) -> Iterator[Place]:
     """Find the sleep() of a Rate inside of a callback of a node with one thread."""
     if "create_rate" not in called(tree) or THREADS & called(tree):
         return
-    rate = {
-        ast.unparse(node.targets[0])
-        for node in walk(tree)
-        if isinstance(node, ast.Assign) and "create_rate" in called(node.value)
-    }
-    for node in walk(tree):
-        if isinstance(node, ast.Call) and ast.unparse(node.func) in {f"{name}.sleep" for name in rate}:
+    rate = {unparse(node.targets[0]) for node in nodes_of(tree, ast.Assign) if "create_rate" in called(node.value)}
+    for node in nodes_of(tree, ast.Call):
+        if unparse(node.func) in {f"{name}.sleep" for name in rate}:
             yield (
                 node.lineno,
-                f"{ast.unparse(node.func)}() waits for a timer of the node, which only another thread could run: it "
+                f"{unparse(node.func)}() waits for a timer of the node, which only another thread could run: it "
                 "never returns. A timer, create_timer(PERIOD, callback), calls a function again and again",
             )
             return
@@ -85,14 +78,14 @@ def rates(tree: ast.AST) -> Iterator[Place]:
 
 def executors(tree: ast.AST) -> Iterator[Place]:
     """Find an executor that is spun and was given no node."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Assign) or not isinstance(node.value, ast.Call):
+    for node in nodes_of(tree, ast.Assign):
+        if not isinstance(node.value, ast.Call):
             continue
-        name, kind = ast.unparse(node.targets[0]), ast.unparse(node.value.func).rpartition(".")[2]
+        name, kind = unparse(node.targets[0]), unparse(node.value.func).rpartition(".")[2]
         if kind not in ("SingleThreadedExecutor", "MultiThreadedExecutor"):
             continue
-        calls = [ast.unparse(each.func) for each in walk(tree) if isinstance(each, ast.Call)]
-        handed = any(each.arg == "executor" for each in walk(tree) if isinstance(each, ast.keyword))
+        calls = [unparse(each.func) for each in nodes_of(tree, ast.Call)]
+        handed = any(each.arg == "executor" for each in nodes_of(tree, ast.keyword))
         if f"{name}.spin" in calls and f"{name}.add_node" not in calls and not handed:
             yield node.lineno, f"{name} is spun, but no node is in it: {name}.add_node(node) comes before {name}.spin()"
 
@@ -100,20 +93,18 @@ def executors(tree: ast.AST) -> Iterator[Place]:
 def other_node(tree: ast.AST) -> Iterator[Place]:
     """Find a spin() of a new plain node, or of a second object of the class, beside the node that does the work."""
     classes = {
-        node.name
-        for node in walk(tree)
-        if isinstance(node, ast.ClassDef) and any(ast.unparse(base).endswith("Node") for base in node.bases)
+        node.name for node in nodes_of(tree, ast.ClassDef) if any(unparse(base).endswith("Node") for base in node.bases)
     }
     made = {
-        ast.unparse(node.targets[0]): ast.unparse(node.value.func)
-        for node in walk(tree)
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call)
+        unparse(node.targets[0]): unparse(node.value.func)
+        for node in nodes_of(tree, ast.Assign)
+        if isinstance(node.value, ast.Call)
     }
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or ast.unparse(node.func) != "rclpy.spin" or not node.args:
+    for node in nodes_of(tree, ast.Call):
+        if unparse(node.func) != "rclpy.spin" or not node.args:
             continue
         given = node.args[0]
-        kind = ast.unparse(given.func) if isinstance(given, ast.Call) else made.get(ast.unparse(given), "")
+        kind = unparse(given.func) if isinstance(given, ast.Call) else made.get(unparse(given), "")
         if classes and kind.rpartition(".")[2] in ("Node", "create_node"):
             yield (
                 node.lineno,
@@ -129,7 +120,7 @@ def shut_down_first(tree: ast.AST) -> Iterator[Place]:
     for block in blocks(tree):
         ended = 0
         for statement in block:
-            code = ast.unparse(statement.value.func) if _is_call(statement) else ""  # type: ignore[attr-defined]
+            code = unparse(statement.value.func) if _is_call(statement) else ""  # type: ignore[attr-defined]
             if code.endswith((".shutdown", ".destroy_node")):
                 ended = statement.lineno
             if ended and code.endswith("spin"):
@@ -139,16 +130,16 @@ def shut_down_first(tree: ast.AST) -> Iterator[Place]:
 
 def sleeps_between_spins(tree: ast.AST) -> Iterator[Place]:
     """Find time.sleep() in the loop that calls spin_once()."""
-    for loop in (node for node in walk(tree) if isinstance(node, ast.While | ast.For)):
+    for loop in nodes_of(tree, ast.While, ast.For):
         found = list(calls(loop))
         if not any(name == "spin_once" for _, name in found):
             continue
         for call, _ in found:
             value = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
-            if ast.unparse(call.func) in ("time.sleep", "sleep") and isinstance(value, int | float) and value >= PAUSE:
+            if unparse(call.func) in ("time.sleep", "sleep") and isinstance(value, int | float) and value >= PAUSE:
                 yield (
                     call.lineno,
-                    f"{ast.unparse(call)} in the loop with spin_once(): while it sleeps, no callback runs, and each "
+                    f"{unparse(call)} in the loop with spin_once(): while it sleeps, no callback runs, and each "
                     "spin_once() runs one; leave it out, or call rclpy.spin(node)",
                 )
                 return
@@ -163,7 +154,7 @@ def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
     spins = {name for name in called(tree) if name.startswith("spin")}
     for call, name in calls(tree):
         if name == "add_node" and isinstance(call.func, ast.Attribute) and not spins:
-            executor = ast.unparse(call.func.value)
+            executor = unparse(call.func.value)
             yield (
                 call.lineno,
                 f"{executor} gets a node here, but nothing lets it work: {executor}.spin() is missing after it",
@@ -173,20 +164,20 @@ def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
 def another_executor_spins(tree: ast.AST) -> Iterator[Place]:
     """Find `rclpy.spin(node)` beside a MultiThreadedExecutor that got the node and is never spun itself."""
     made = {
-        ast.unparse(node.targets[0])
-        for node in walk(tree)
-        if isinstance(node, ast.Assign) and "MultiThreadedExecutor(" in ast.unparse(node.value)
+        unparse(node.targets[0])
+        for node in nodes_of(tree, ast.Assign)
+        if "MultiThreadedExecutor(" in unparse(node.value)
     }
-    code = [(call, ast.unparse(call.func)) for call, _ in calls(tree)]
+    code = [(call, unparse(call.func)) for call, _ in calls(tree)]
     for name in made:
         used = any(text.startswith(f"{name}.spin") for _, text in code)
-        handed = any(name == ast.unparse(each.value) for call, _ in code for each in call.keywords)
-        handed |= any(name == ast.unparse(each) for call, _ in code for each in call.args)
+        handed = any(name == unparse(each.value) for call, _ in code for each in call.keywords)
+        handed |= any(name == unparse(each) for call, _ in code for each in call.args)
         for call, text in code:
             if text in ("rclpy.spin", "spin") and len(call.args) == 1 and not used and not handed and not call.keywords:
                 yield (
                     call.lineno,
-                    f"{ast.unparse(call)} takes the node out of {name}, and spins it in one thread: the call is "
+                    f"{unparse(call)} takes the node out of {name}, and spins it in one thread: the call is "
                     f"{name}.spin()",
                 )
                 return

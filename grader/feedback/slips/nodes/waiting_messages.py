@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.slips.nodes.transforms import ASKED, KEEPS
 
 TAKES = frozenset({"pop", "popleft", "get", "get_nowait"})
@@ -21,16 +31,16 @@ def _asks(node: ast.AST, tree: ast.AST) -> bool:
 
 
 def _names(node: ast.AST) -> set[str]:
-    return {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute | ast.Subscript)}
+    return {unparse(each) for each in nodes_of(node, ast.Name, ast.Attribute, ast.Subscript)}
 
 
 def _while_any(loop: ast.AST) -> str:
     """Return the list of `while waiting:`, `while len(waiting) > 0:` or `for _ in range(len(waiting)):`."""
     match loop:
         case ast.While(test=ast.Name() | ast.Attribute() as kept):
-            return ast.unparse(kept)
+            return unparse(kept)
         case ast.While(test=ast.Call(func=ast.Name(id="len"), args=[kept])):
-            return ast.unparse(kept)
+            return unparse(kept)
         case ast.While(
             test=ast.Compare(
                 left=ast.Call(func=ast.Name(id="len"), args=[kept]),
@@ -38,9 +48,9 @@ def _while_any(loop: ast.AST) -> str:
                 comparators=[ast.Constant(value=0)],
             )
         ):
-            return ast.unparse(kept)
+            return unparse(kept)
         case ast.For(iter=ast.Call(func=ast.Name(id="range"), args=[ast.Call(func=ast.Name(id="len"), args=[kept])])):
-            return ast.unparse(kept)
+            return unparse(kept)
     return ""
 
 
@@ -48,28 +58,28 @@ def _over(loop: ast.For) -> str:
     """Return the list over which a loop runs, also where the loop has a copy: `for each in list(waiting):`."""
     match loop.iter:
         case ast.Call(func=ast.Name(id="list" | "tuple" | "reversed"), args=[kept]):
-            return ast.unparse(kept)
+            return unparse(kept)
         case ast.Call(func=ast.Attribute(value=kept, attr="copy")) | ast.Subscript(value=kept, slice=ast.Slice()):
-            return ast.unparse(kept)
-    return ast.unparse(loop.iter)
+            return unparse(kept)
+    return unparse(loop.iter)
 
 
 def taken_too_early(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that takes each message out of its list, asks for its transform then, and never puts it back."""
     for function in functions(tree):
-        for loop in walk(function):
-            if not isinstance(loop, ast.While | ast.For) or not _asks(loop, tree):
+        for loop in nodes_of(function, ast.While, ast.For):
+            if not _asks(loop, tree):
                 continue
             kept, name, line = _while_any(loop), "", 0
             for target, value in assigned(loop):
                 takes = isinstance(value, ast.Call) and last_name(value.func) in TAKES
-                if takes and kept and ast.unparse(value).startswith(f"{kept}."):
-                    name, line = ast.unparse(target), value.lineno
+                if takes and kept and unparse(value).startswith(f"{kept}."):
+                    name, line = unparse(target), value.lineno
             if isinstance(loop, ast.For) and not name:
-                kept, each = _over(loop), ast.unparse(loop.target)
+                kept, each = _over(loop), unparse(loop.target)
                 asked = [call.lineno for call, _ in calls(loop) if _asks(call, tree)]
                 for call, method in calls(loop):
-                    out = method == "remove" and ast.unparse(call) == f"{kept}.remove({each})"
+                    out = method == "remove" and unparse(call) == f"{kept}.remove({each})"
                     if out and call.lineno < min(asked) and _always(loop, call):
                         name, line = each, call.lineno
             if not name or _put_back(function, name) or _looked_at_first(loop, kept, tree):
@@ -98,24 +108,22 @@ def _put_back(function: ast.FunctionDef, name: str) -> bool:
 
 
 def _looked_at_first(loop: ast.AST, kept: str, tree: ast.AST) -> bool:
-    return any(f"{kept}[" in ast.unparse(call) for call, _ in calls(loop) if _asks(call, tree))
+    return any(f"{kept}[" in unparse(call) for call, _ in calls(loop) if _asks(call, tree))
 
 
 def emptied(tree: ast.AST) -> Iterator[Place]:
     """Find a list that is emptied behind the loop that asks for the transforms of its messages."""
     for function in functions(tree):
-        for loop in (node for node in walk(function) if isinstance(node, ast.For) and _asks(node, tree)):
+        for loop in (node for node in nodes_of(function, ast.For) if _asks(node, tree)):
             kept = _over(loop)
             later = [node for node in walk(function) if getattr(node, "lineno", 0) > (loop.end_lineno or 0)]
-            filled = [
-                call for call, name in calls(function) if name in KEEPS and ast.unparse(call).startswith(f"{kept}.")
-            ]
+            filled = [call for call, name in calls(function) if name in KEEPS and unparse(call).startswith(f"{kept}.")]
             if not filled or any(call.lineno >= loop.lineno for call in filled):
                 continue
             for node in later:
                 if node not in function.body and not _in_finally(function, node):
                     continue
-                text = ast.unparse(node)
+                text = unparse(node)
                 if text == f"{kept}.clear()" or text in {f"{kept} = {empty}" for empty in EMPTY}:
                     yield (
                         node.lineno,  # type: ignore[attr-defined]
@@ -125,7 +133,7 @@ def emptied(tree: ast.AST) -> Iterator[Place]:
 
 
 def _in_finally(function: ast.FunctionDef, node: ast.AST) -> bool:
-    return any(node in each.finalbody for each in walk(function) if isinstance(each, ast.Try))
+    return any(node in each.finalbody for each in nodes_of(function, ast.Try))
 
 
 def kept_when_done(tree: ast.AST) -> Iterator[Place]:
@@ -135,24 +143,24 @@ def kept_when_done(tree: ast.AST) -> Iterator[Place]:
         for each in functions(tree)
         if called(each) & ASKED
         and any(
-            isinstance(handler, ast.ExceptHandler) and ast.unparse(handler.body[-1]) in ("return False", "return None")
+            isinstance(handler, ast.ExceptHandler) and unparse(handler.body[-1]) in ("return False", "return None")
             for handler in walk(each)
         )
-        and any(isinstance(node, ast.Return) and ast.unparse(node) == "return True" for node in walk(each))
+        and any(isinstance(node, ast.Return) and unparse(node) == "return True" for node in walk(each))
     }
     for target, value in assigned(tree):
         kept = value.value if isinstance(value, ast.Subscript) else value
         if not isinstance(kept, ast.ListComp) or len(kept.generators) != 1:
             continue
         loop = kept.generators[0]
-        if ast.unparse(target) != ast.unparse(loop.iter) or len(loop.ifs) != 1:
+        if unparse(target) != unparse(loop.iter) or len(loop.ifs) != 1:
             continue
         test = loop.ifs[0]
         if isinstance(test, ast.Call) and last_name(test.func) in false:
             yield (
                 test.lineno,
                 f"this keeps what {last_name(test.func)}() has answered, where it returns True, and drops what still "
-                f"waits for its transform: if not {ast.unparse(test)}",
+                f"waits for its transform: if not {unparse(test)}",
             )
 
 
@@ -161,7 +169,7 @@ def first_for_ever(tree: ast.AST) -> Iterator[Place]:
     for kept, line in _asked_alone(tree).items():
         outside = [each for each in functions(tree) if each.name != "__init__"]
         removals = [node for each in outside for node in walk(each) if _removes(node, kept)]
-        text = ast.unparse(tree)
+        text = unparse(tree)
         if len(removals) != 1 or f"len({kept}) >" in text or f"len({kept}) =" in text or "maxlen" in text:
             continue
         if not _on_failure(tree, removals[0]):
@@ -177,17 +185,16 @@ def _asked_alone(tree: ast.AST) -> dict[str, int]:
     """Return `waiting[0]`, or an attribute that is filled only while it is None, of which transforms are asked for."""
     found: dict[str, int] = {}
     guarded = {
-        ast.unparse(target)
-        for node in walk(tree)
-        if isinstance(node, ast.If)
+        unparse(target)
+        for node in nodes_of(tree, ast.If)
         for target, value in assigned(ast.Module(node.body, []))
-        if isinstance(value, ast.Name) and ast.unparse(node.test) in _is_none(ast.unparse(target))
+        if isinstance(value, ast.Name) and unparse(node.test) in _is_none(unparse(target))
     }
     for function in functions(tree):
-        loops = [node for node in walk(function) if isinstance(node, ast.For)]
+        loops = [node for node in nodes_of(function, ast.For)]
         if any(_asks(loop, tree) for loop in loops):
             return {}
-        values = {ast.unparse(target): value for target, value in assigned(function)}
+        values = {unparse(target): value for target, value in assigned(function)}
         for call, name in calls(function):
             if name not in ASKED:
                 continue
@@ -213,11 +220,11 @@ def _followed(node: ast.AST, values: dict[str, ast.expr], steps: int) -> set[str
 def _removes(node: ast.AST, kept: str) -> bool:
     owner = kept.removesuffix("[0]")
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-        return ast.unparse(node.func.value) == owner and node.func.attr in REMOVES
+        return unparse(node.func.value) == owner and node.func.attr in REMOVES
     if isinstance(node, ast.Delete):
-        return any(ast.unparse(target).startswith(owner) for target in node.targets)
+        return any(unparse(target).startswith(owner) for target in node.targets)
     if isinstance(node, ast.Assign):
-        return ast.unparse(node.targets[0]) == owner and (owner != kept or ast.unparse(node.value) in EMPTY)
+        return unparse(node.targets[0]) == owner and (owner != kept or unparse(node.value) in EMPTY)
     return False
 
 
@@ -236,7 +243,7 @@ def _on_failure(tree: ast.AST, removal: ast.AST) -> bool:
                 return True
         if isinstance(node, ast.If) and inside:
             test, behind = (
-                ast.unparse(node.test),
+                unparse(node.test),
                 any(each is removal for part in node.orelse for each in walk(part)),
             )
             if any(asked in test for asked in ASKED) and (test.startswith("not ") != behind):
@@ -252,18 +259,16 @@ def time_of_another(tree: ast.AST) -> Iterator[Place]:
     """Find a loop over messages that asks for each transform at the time of the message that has just come."""
     for function in functions(tree):
         given = {each.arg for each in function.args.args} - {"self"}
-        values = {ast.unparse(target): value for target, value in assigned(function)}
+        values = {unparse(target): value for target, value in assigned(function)}
         lists = {
-            ast.unparse(call.func.value)
+            unparse(call.func.value)
             for call, name in calls(function)
-            if name in KEEPS
-            and isinstance(call.func, ast.Attribute)
-            and {ast.unparse(each) for each in call.args} & given
+            if name in KEEPS and isinstance(call.func, ast.Attribute) and {unparse(each) for each in call.args} & given
         }
-        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
+        for loop in nodes_of(function, ast.For):
             if _over(loop) not in lists:
                 continue
-            each = ast.unparse(loop.target)
+            each = unparse(loop.target)
             for call, name in calls(loop):
                 times = [*call.args[2:3], *(word.value for word in call.keywords if word.arg == "time")]
                 names = _followed(times[0], values, STEPS) if name in ASKED and times else set()
@@ -278,14 +283,14 @@ def time_of_another(tree: ast.AST) -> Iterator[Place]:
 
 def keyed_by_seconds(tree: ast.AST) -> Iterator[Place]:
     """Find a dictionary of messages whose key is `stamp.sec`, which all messages of one second share."""
-    if "nanosec" in ast.unparse(tree):
+    if "nanosec" in unparse(tree):
         return
     for target, value in assigned(tree):
-        seconds = isinstance(target, ast.Subscript) and ast.unparse(target.slice).endswith("stamp.sec")
+        seconds = isinstance(target, ast.Subscript) and unparse(target.slice).endswith("stamp.sec")
         if isinstance(target, ast.Subscript) and seconds and isinstance(value, ast.Name):
             yield (
                 target.lineno,
-                f"{ast.unparse(target.slice)} is the same for all messages of one second, so each takes the place "
+                f"{unparse(target.slice)} is the same for all messages of one second, so each takes the place "
                 "of the one before: (stamp.sec, stamp.nanosec) is a key for each message",
             )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, functions, last_name, nodes_of, unparse, walk
 
 ASKS = "is_cancel_requested"
 
@@ -13,14 +13,14 @@ ASKS = "is_cancel_requested"
 def _answers(function: ast.FunctionDef) -> tuple[str, str] | None:
     """Return what a function returns where a goal is to be cancelled, and otherwise; None if that is the same."""
     asked = [
-        each for each in walk(function) if isinstance(each, ast.If) and ASKS in ast.unparse(each.test)
+        each for each in nodes_of(function, ast.If) if ASKS in unparse(each.test)
     ]  # fmt: skip
     inside = [part for each in asked for part in each.body if isinstance(part, ast.Return)]
-    others = [each for each in walk(function) if isinstance(each, ast.Return) and each not in inside]
+    others = [each for each in nodes_of(function, ast.Return) if each not in inside]
     if not inside or inside[0].value is None:
         return None
-    then = ast.unparse(inside[0].value)
-    otherwise = [ast.unparse(each.value) for each in others if each.value is not None]
+    then = unparse(inside[0].value)
+    otherwise = [unparse(each.value) for each in others if each.value is not None]
     constant = isinstance(inside[0].value, ast.Constant)
     return (then, otherwise[0]) if constant and otherwise and then != otherwise[0] else None
 
@@ -37,7 +37,7 @@ def answers_thrown_away(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     call.lineno,
                     "cancel",
-                    f"{ast.unparse(call.func)}() returns {answer[0]} when the goal is to be cancelled, and this line "
+                    f"{unparse(call.func)}() returns {answer[0]} when the goal is to be cancelled, and this line "
                     "throws that away, so execute goes on as if the waypoint were reached: ask what it returns, and "
                     "end the patrol there",
                 )

@@ -7,7 +7,16 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 SIZES = frozenset({"abs", "fabs", "absolute"})
 COORDINATE = re.compile(r"(?:.*_)?(?:d|e|delta|diff|err|error|gap|off|rest)?_?([xy])(?:_.*)?")
@@ -90,7 +99,7 @@ def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "one_axis",
-                    f"`{ast.unparse(node)[:90]}` is {'false' if ends else 'true'} as soon as x or y alone is near: "
+                    f"`{unparse(node)[:90]}` is {'false' if ends else 'true'} as soon as x or y alone is near: "
                     f"{DISTANCE}",
                 )
 
@@ -104,7 +113,7 @@ def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
     if not called(tree) & {"succeed"}:
         return  # it executes no goals
     for function in functions(tree):
-        for loop in (each for each in walk(function) if isinstance(each, ast.While)):
+        for loop in nodes_of(function, ast.While):
             if isinstance(loop.test, ast.BoolOp):
                 found = [each for each in loop.test.values if _compared(each)[0]]
             else:
@@ -115,8 +124,7 @@ def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     loop.lineno,
                     "one_axis",
-                    f"`{ast.unparse(found[0])[:90]}` asks for one coordinate only, and {other} may be far off: "
-                    f"{DISTANCE}",
+                    f"`{unparse(found[0])[:90]}` asks for one coordinate only, and {other} may be far off: {DISTANCE}",
                 )
 
 
@@ -124,15 +132,13 @@ def signs_are_kept(tree: ast.AST) -> Iterator[Suspect]:
     """Find differences of coordinates that are compared with their signs: each negative one is small enough."""
     if not called(tree) & {"succeed"}:
         return
-    for node in walk(tree):
-        if not isinstance(node, ast.BoolOp):
-            continue
+    for node in nodes_of(tree, ast.BoolOp):
         found = [pair for each in node.values if (pair := _compared(each, signed=True))[0]]
         if len(found) == 2 and len({axis for axis, _ in found}) == 2 and len({far for _, far in found}) == 1:
             yield (
                 node.lineno,
                 "one_axis",
-                f"`{ast.unparse(node)[:90]}` compares differences with their signs, and every negative one is small "
+                f"`{unparse(node)[:90]}` compares differences with their signs, and every negative one is small "
                 f"enough, however far the robot is: {DISTANCE}",
             )
 
@@ -141,7 +147,7 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives as long as the robot is near: it is over before it begins."""
     if not called(tree) & {"succeed"}:
         return
-    for loop in (each for each in walk(tree) if isinstance(each, ast.While)):
+    for loop in nodes_of(tree, ast.While):
         left = _broken_off(loop)
         for node in loop.test.values if isinstance(loop.test, ast.BoolOp) else [loop.test]:
             match node:
@@ -150,15 +156,15 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
                     ops=[ast.Lt() | ast.LtE()],
                     comparators=[ast.Name() | ast.Attribute() | ast.Constant()],
                 ) if (
-                    LENGTH.search(ast.unparse(distance))
-                    and "driven" not in ast.unparse(distance)
+                    LENGTH.search(unparse(distance))
+                    and "driven" not in unparse(distance)
                     and "publish" in called(loop)
                     and not left
                 ):
                     yield (
                         loop.lineno,
                         "inverted",
-                        f"`while {ast.unparse(node)[:80]}` goes on while the robot is near, and is over at once where "
+                        f"`while {unparse(node)[:80]}` goes on while the robot is near, and is over at once where "
                         "it is far: > is asked for",
                     )
 
@@ -168,7 +174,7 @@ def squares(tree: ast.Module) -> Iterator[Suspect]:
     if not called(tree) & {"succeed"}:
         return
     known = named_numbers(tree)
-    squared = {ast.unparse(target) for target, value in assigned(tree) if _is_square(value)}
+    squared = {unparse(target) for target, value in assigned(tree) if _is_square(value)}
     for node in walk(tree):
         match node:
             case ast.Compare(left=left, ops=[ast.Gt() | ast.GtE() | ast.Lt() | ast.LtE()], comparators=[limit]):
@@ -176,11 +182,11 @@ def squares(tree: ast.Module) -> Iterator[Suspect]:
             case _:
                 continue
         value = number(limit, known)
-        if value is not None and NEAREST_SQUARE < value < 1 and (_is_square(left) or ast.unparse(left) in squared):
+        if value is not None and NEAREST_SQUARE < value < 1 and (_is_square(left) or unparse(left) in squared):
             yield (
                 node.lineno,
                 "squared",
-                f"`{ast.unparse(node)[:80]}` compares a square with a distance: the square of {value**0.5:.2f} m is "
+                f"`{unparse(node)[:80]}` compares a square with a distance: the square of {value**0.5:.2f} m is "
                 f"{value:g}, so the robot counts as there {value**0.5:.2f} m away: square the limit, too",
             )
 
@@ -191,7 +197,7 @@ def _is_square(node: ast.AST) -> bool:
         case ast.BinOp(op=ast.Pow(), right=ast.Constant(value=2)):
             return True
         case ast.BinOp(left=left, op=ast.Mult(), right=right):
-            return ast.unparse(left) == ast.unparse(right)
+            return unparse(left) == unparse(right)
         case ast.BinOp(left=left, op=ast.Add(), right=right):
             return _is_square(left) and _is_square(right)
     return False

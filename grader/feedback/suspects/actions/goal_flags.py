@@ -5,7 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 TURNS = frozenset({"Lock", "RLock", "Semaphore", "BoundedSemaphore"})
 ENDS = frozenset({"succeed", "canceled", "abort"})
@@ -13,8 +23,8 @@ ENDS = frozenset({"succeed", "canceled", "abort"})
 
 def _own(node: ast.expr) -> str:
     """Return the name of an attribute of the node itself, such as `self.busy`; empty if it is something else."""
-    own = isinstance(node, ast.Attribute) and ast.unparse(node.value) == "self"
-    return ast.unparse(node) if own else ""
+    own = isinstance(node, ast.Attribute) and unparse(node.value) == "self"
+    return unparse(node) if own else ""
 
 
 def _constant(value: ast.expr) -> object:
@@ -43,10 +53,10 @@ def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
     for function in _judges(tree):
         tested = {
             _own(each): node.lineno
-            for node in walk(function)
-            if isinstance(node, ast.If) and _refusals(node.body)
-            for each in walk(node.test)
-            if isinstance(each, ast.expr) and _own(each)
+            for node in nodes_of(function, ast.If)
+            if _refusals(node.body)
+            for each in nodes_of(node.test, ast.expr)
+            if _own(each)
         }
         for number, statement in enumerate(function.body):
             for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
@@ -72,7 +82,7 @@ def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
             later = _refusals(function.body[number + 1 :])
             released = "release" in {name for part in function.body for name in called(part)}
             if taken and later and not released:
-                name = ast.unparse(taken[0])
+                name = unparse(taken[0])
                 yield (
                     statement.lineno,
                     "refuses_all",
@@ -100,8 +110,8 @@ def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _reads(tree: ast.AST) -> Iterator[ast.expr]:
-    for node in walk(tree):
-        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and _own(node):
+    for node in nodes_of(tree, ast.Attribute):
+        if isinstance(node.ctx, ast.Load) and _own(node):
             yield node
 
 
@@ -160,7 +170,7 @@ def events_never_cleared(tree: ast.AST) -> Iterator[Suspect]:
 
 def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that asks is_active, in a file that never asks whether a goal is to be cancelled."""
-    asked = [each for each in walk(tree) if isinstance(each, ast.Attribute)]
+    asked = [each for each in nodes_of(tree, ast.Attribute)]
     if any(each.attr == "is_cancel_requested" for each in asked):
         return
     for each in asked:
@@ -168,8 +178,8 @@ def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 each.lineno,
                 "cancel",
-                f"{ast.unparse(each)} stays True until the goal is ended here, also while somebody waits for it to be "
-                f"cancelled: ask {ast.unparse(each.value)}.is_cancel_requested",
+                f"{unparse(each)} stays True until the goal is ended here, also while somebody waits for it to be "
+                f"cancelled: ask {unparse(each.value)}.is_cancel_requested",
             )
 
 
@@ -185,16 +195,17 @@ def aborts_at_the_end(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     call.lineno,
                     "ended",
-                    f"{ast.unparse(call)} says that the goal failed; "
-                    f"{ast.unparse(call.func).rpartition('.')[0]}.succeed() ends one that was done",
+                    f"{unparse(call)} says that the goal failed; "
+                    f"{unparse(call.func).rpartition('.')[0]}.succeed() ends one that was done",
                 )
 
 
 def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
     """Find an action server in a file without publish_feedback()."""
+    if any(each.attr == "publish_feedback" for each in nodes_of(tree, ast.Attribute)):
+        return
     for call, name in calls(tree):
-        named = any(isinstance(each, ast.Attribute) and each.attr == "publish_feedback" for each in walk(tree))
-        if name == "ActionServer" and not named:
+        if name == "ActionServer":
             yield (
                 call.lineno,
                 "no_feedback",
@@ -229,11 +240,11 @@ def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, st
         driven = any(isinstance(each, ast.For | ast.While) for last in function.body[:number] for each in walk(last))
         if isinstance(statement, ast.With):
             for item in statement.items:
-                held = ast.unparse(item.context_expr)
+                held = unparse(item.context_expr)
                 if held in locks and not driven and any(isinstance(each, ast.Return) for each in walk(statement)):
                     yield statement.lineno, held
         call = statement.value if isinstance(statement, ast.Expr) else None
-        held = ast.unparse(call.func).removesuffix(".acquire") if isinstance(call, ast.Call) else ""
+        held = unparse(call.func).removesuffix(".acquire") if isinstance(call, ast.Call) else ""
         if held in locks:
             yield statement.lineno, held
         if isinstance(statement, ast.While) and called(statement) <= {"sleep", "ok"} and "sleep" in called(statement):
@@ -246,9 +257,9 @@ def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, st
 def cancellations_refused(tree: ast.AST) -> Iterator[Suspect]:
     """Find a cancel callback that refuses."""
     for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
-        for node in walk(function):
-            if isinstance(node, ast.Return) and node.value is not None and _rejects(node.value):
-                yield node.lineno, "refuses_cancel", f"`{ast.unparse(node)[:90]}` in {function.name} refuses"
+        for node in nodes_of(function, ast.Return):
+            if node.value is not None and _rejects(node.value):
+                yield node.lineno, "refuses_cancel", f"`{unparse(node)[:90]}` in {function.name} refuses"
 
 
 LOOKS = (

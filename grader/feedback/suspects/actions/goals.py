@@ -5,7 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 # Comparisons of a length with a number that tell an empty list from all others.
 TELLS_EMPTY = frozenset({(ast.Eq, 0), (ast.NotEq, 0), (ast.Gt, 0), (ast.LtE, 0), (ast.Lt, 1), (ast.GtE, 1)})
@@ -23,19 +32,19 @@ def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
 def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
     """Find a length that is compared with another number than the one that tells an empty list."""
     for function in _judges(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.Compare) or len(node.ops) != 1 or not isinstance(node.left, ast.Call):
+        for node in nodes_of(function, ast.Compare):
+            if len(node.ops) != 1 or not isinstance(node.left, ast.Call):
                 continue
             limit = node.comparators[0]
             number = limit.value if isinstance(limit, ast.Constant) else None
-            if ast.unparse(node.left.func) != "len" or not isinstance(number, int):
+            if unparse(node.left.func) != "len" or not isinstance(number, int):
                 continue
             if (type(node.ops[0]), number) not in TELLS_EMPTY:
-                what = ast.unparse(node.left.args[0]).rpartition(".")[2] if node.left.args else "the list"
+                what = unparse(node.left.args[0]).rpartition(".")[2] if node.left.args else "the list"
                 yield (
                     node.lineno,
                     "goal_length",
-                    f"`{ast.unparse(node)}` refuses goals by the number of their {what}, and not only empty ones: "
+                    f"`{unparse(node)}` refuses goals by the number of their {what}, and not only empty ones: "
                     "a goal with one is a goal, too",
                 )
 
@@ -43,8 +52,8 @@ def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
 def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
     """Find an answer to a goal by which a speed that is the limit itself is too much."""
     for function in _judges(tree):
-        for test in (each for each in walk(function) if isinstance(each, ast.If | ast.IfExp)):
-            body = " ".join(ast.unparse(each) for each in (test.body if isinstance(test, ast.If) else [test.body]))
+        for test in nodes_of(function, ast.If, ast.IfExp):
+            body = " ".join(unparse(each) for each in (test.body if isinstance(test, ast.If) else [test.body]))
             refuses = "REJECT" in body
             if refuses == ("ACCEPT" in body):
                 continue
@@ -53,7 +62,7 @@ def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         compare.lineno,
                         "goal_limit",
-                        f"by `{ast.unparse(compare)}`, a speed that is max_speed itself is refused: only one above it "
+                        f"by `{unparse(compare)}`, a speed that is max_speed itself is refused: only one above it "
                         "is too fast",
                     )
 
@@ -90,22 +99,21 @@ def _is_speed(node: ast.expr) -> bool:
 
 def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find abort() where a cancellation was asked for."""
-    for test in (each for each in walk(tree) if isinstance(each, ast.If)):
-        if "is_cancel_requested" not in ast.unparse(test.test):
+    for test in nodes_of(tree, ast.If):
+        if "is_cancel_requested" not in unparse(test.test):
             continue
-        for call in (each for part in test.body for each in walk(part) if isinstance(each, ast.Call)):
+        for call in (each for part in test.body for each in nodes_of(part, ast.Call)):
             if isinstance(call.func, ast.Attribute) and call.func.attr == "abort":
                 yield (
                     call.lineno,
                     "cancel",
-                    f"{ast.unparse(call)} ends the goal as ABORTED; {ast.unparse(call.func.value)}.canceled() belongs "
-                    "here",
+                    f"{unparse(call)} ends the goal as ABORTED; {unparse(call.func.value)}.canceled() belongs here",
                 )
 
 
 def _fields(tree: ast.AST) -> list[tuple[ast.expr, str | None]]:
     """Return what is given to fields of messages, by keyword or by assignment, with the name of the field."""
-    given = [(each.value, each.arg) for each in walk(tree) if isinstance(each, ast.keyword)]
+    given = [(each.value, each.arg) for each in nodes_of(tree, ast.keyword)]
     return given + [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
 
 
@@ -117,7 +125,7 @@ def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 value.lineno,
                 "feedback",
-                f"{ast.unparse(value)} is a whole number, and the field distance is a float64, to which rclpy does "
+                f"{unparse(value)} is a whole number, and the field distance is a float64, to which rclpy does "
                 "not convert it: the number itself, or float(...), can be sent",
             )
 
@@ -131,7 +139,7 @@ def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 value.lineno,
                 "feedback" if field == "waypoint" else "unsent_result",
-                f"{ast.unparse(value)} is a float, and the field {field} is an int32, which rclpy cannot send it as: "
+                f"{unparse(value)} is a float, and the field {field} is an int32, which rclpy cannot send it as: "
                 "give it a whole number",
             )
         elif field == "waypoint" and isinstance(value, ast.Name) and _has_coordinates(tree, value.id):
@@ -144,7 +152,7 @@ def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
 
 def _has_coordinates(tree: ast.AST, name: str) -> bool:
     """Return whether x and y of something are read."""
-    read = {ast.unparse(each) for each in walk(tree) if isinstance(each, ast.Attribute)}
+    read = {unparse(each) for each in nodes_of(tree, ast.Attribute)}
     return {f"{name}.x", f"{name}.y"} <= read
 
 
@@ -152,11 +160,11 @@ def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
     """Yield each function that ends goals, with the attributes that `__init__` alone assigns, and what."""
     assigned: dict[str, list[tuple[str, str]]] = {}
     for function in functions(tree):
-        for node in (each for each in walk(function) if isinstance(each, ast.Assign)):
+        for node in nodes_of(function, ast.Assign):
             for target in node.targets:
-                for each in walk(target):
-                    if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store):
-                        assigned.setdefault(ast.unparse(each), []).append((function.name, ast.unparse(node.value)))
+                for each in nodes_of(target, ast.Attribute):
+                    if isinstance(each.ctx, ast.Store):
+                        assigned.setdefault(unparse(each), []).append((function.name, unparse(node.value)))
     once = {name: where[0][1] for name, where in assigned.items() if [each for each, _ in where] == ["__init__"]}
     for function in functions(tree):
         if "succeed" in called(function):
@@ -169,14 +177,12 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
         for name in (each for each, value in once.items() if value in ("[]", "list()", "deque()")):
             uses = [
                 (call.func.attr, call.lineno)
-                for call in walk(tree)
-                if isinstance(call, ast.Call)
-                and isinstance(call.func, ast.Attribute)
-                and ast.unparse(call.func.value) == name
+                for call in nodes_of(tree, ast.Call)
+                if isinstance(call.func, ast.Attribute) and unparse(call.func.value) == name
             ]
             inside = range(function.lineno, (function.end_lineno or function.lineno) + 1)
             grows = [line for method, line in uses if method in GROWS and line in inside]
-            deleted = any(isinstance(each, ast.Delete) and name in ast.unparse(each) for each in walk(tree))
+            deleted = any(isinstance(each, ast.Delete) and name in unparse(each) for each in walk(tree))
             if grows and not deleted and not any(method in EMPTIES for method, _ in uses):
                 yield (
                     grows[0],
@@ -189,11 +195,9 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
 def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find the index of a waypoint that goes on from goal to goal."""
     for function, once in _kept(tree):
-        for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
-            name = ast.unparse(node.target)
-            indexes = any(
-                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in walk(function)
-            )
+        for node in nodes_of(function, ast.AugAssign):
+            name = unparse(node.target)
+            indexes = any(isinstance(each, ast.Subscript) and unparse(each.slice) == name for each in walk(function))
             if once.get(name, "").lstrip("-").isdigit() and indexes:
                 yield (
                     node.lineno,

@@ -6,7 +6,16 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, is_none, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    calls,
+    functions,
+    is_none,
+    last_name,
+    nodes_of,
+    unparse,
+)
 
 LIMIT = "max_speed"
 
@@ -14,12 +23,12 @@ LIMIT = "max_speed"
 def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
     """Yield the functions that answer to goals."""
     for function in functions(tree):
-        if any(ast.unparse(each).endswith(("Response.REJECT", "Response.ACCEPT")) for each in _attributes(function)):
+        if any(unparse(each).endswith(("Response.REJECT", "Response.ACCEPT")) for each in _attributes(function)):
             yield function
 
 
-def _attributes(tree: ast.AST) -> Iterator[ast.Attribute]:
-    return (each for each in walk(tree) if isinstance(each, ast.Attribute))
+def _attributes(tree: ast.AST) -> tuple[ast.Attribute, ...]:
+    return nodes_of(tree, ast.Attribute)
 
 
 def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
@@ -37,14 +46,14 @@ def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
 def lists_are_never_none(tree: ast.AST) -> Iterator[Suspect]:
     """Find a goal without waypoints that is looked for by None."""
     for function in _judges(tree):
-        for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
+        for node in nodes_of(function, ast.Compare):
             other = node.comparators[0]
             if last_name(node.left) == "waypoints" and is_none(other):
                 yield (
                     node.lineno,
                     "accepts_empty",
-                    f"waypoints of a goal is a list, never None, so `{ast.unparse(node)}` is always the same: a goal "
-                    f"without waypoints has an empty list, `len({ast.unparse(node.left)}) == 0`",
+                    f"waypoints of a goal is a list, never None, so `{unparse(node)}` is always the same: a goal "
+                    f"without waypoints has an empty list, `len({unparse(node.left)}) == 0`",
                 )
 
 
@@ -56,7 +65,7 @@ def signs_taken_away(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     call.lineno,
                     "accepts_backwards",
-                    f"{ast.unparse(call)} has no sign any more, so a negative speed counts as a positive one",
+                    f"{unparse(call)} has no sign any more, so a negative speed counts as a positive one",
                 )
 
 
@@ -72,18 +81,18 @@ def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
         yield line, "other_limit", f"the node has a parameter `{name}`, and the task calls the limit `{LIMIT}`"
     known = named_numbers(tree)
     for function in _judges(tree):
-        own = {ast.unparse(target): value for target, value in assigned(tree)}
-        for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
+        own = {unparse(target): value for target, value in assigned(tree)}
+        for node in nodes_of(function, ast.Compare):
             sides = [node.left, *node.comparators]
             if not any(last_name(each) == "speed" for each in sides):
                 continue
             for side in sides:
-                value = number(own.get(ast.unparse(side), side), known)
+                value = number(own.get(unparse(side), side), known)
                 if value is not None and value > 0:
                     yield (
                         node.lineno,
                         "other_limit",
-                        f"`{ast.unparse(node)[:70]}` takes the constant {value:g} for the limit: it is the parameter, "
+                        f"`{unparse(node)[:70]}` takes the constant {value:g} for the limit: it is the parameter, "
                         f"self.get_parameter('{LIMIT}').value",
                     )
 

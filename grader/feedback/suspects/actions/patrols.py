@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import TypeGuard
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
 
 Suspect = tuple[int, str, str]
 ASKS = "is_cancel_requested"
@@ -20,12 +20,12 @@ Loop = ast.While | ast.For
 
 def _asks(node: ast.AST) -> list[int]:
     """Return the lines that ask for a cancellation."""
-    return sorted(each.lineno for each in walk(node) if isinstance(each, ast.Attribute) and each.attr == ASKS)
+    return sorted(each.lineno for each in nodes_of(node, ast.Attribute) if each.attr == ASKS)
 
 
 def _askers(tree: ast.AST) -> set[str]:
     """Return the functions that ask for a cancellation, themselves or by a function that they call."""
-    functions = [each for each in walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)]
+    functions = [each for each in nodes_of(tree, ast.FunctionDef, ast.AsyncFunctionDef)]
     found = {each.name for each in functions if _asks(each)}
     for _ in functions:
         more = {each.name for each in functions if called(each) & found} - found
@@ -45,7 +45,7 @@ def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
     for test in (each for each in walk(tree) if _asked_by(each)):
         if not isinstance(test.test, ast.BoolOp) or not isinstance(test.test.op, ast.And):
             continue
-        others = " and ".join(ast.unparse(each) for each in test.test.values if not _asks(each))
+        others = " and ".join(unparse(each) for each in test.test.values if not _asks(each))
         leaves = any(isinstance(part, ast.Return | ast.Break) for part in test.body)
         if others and (leaves or "canceled" in called(test)):
             yield test.lineno, "cancel", f"a cancellation counts only if `{others[:80]}` is true, too"
@@ -79,7 +79,7 @@ def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
             if not isinstance(inner, Loop) or inner.orelse:
                 continue
             behind = [each for part in outer.body[place + 1 :] for each in walk(part)]
-            asked = [each for each in walk(inner) if isinstance(each, ast.If) and _asks(each.test)]
+            asked = [each for each in nodes_of(inner, ast.If) if _asks(each.test)]
             left = [part for each in asked for part in each.body if isinstance(part, ast.Break)]
             ahead = any(_asks(part) for part in outer.body[:place])
             if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
@@ -100,16 +100,16 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     for node in walk(tree):
         if isinstance(node, ast.Assign):
             for target in node.targets:
-                made.setdefault(ast.unparse(target), []).append(node)
+                made.setdefault(unparse(target), []).append(node)
         elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
-            counted[ast.unparse(node.target)] = node.lineno
-    handed = {ast.unparse(n.value) for n in walk(tree) if isinstance(n, ast.Assign | ast.keyword)}
+            counted[unparse(node.target)] = node.lineno
+    handed = {unparse(n.value) for n in nodes_of(tree, ast.Assign, ast.keyword)}
     first = _lines_of_init(tree)
     for name, line in counted.items():
         whole, _, field = name.rpartition(".")
         own = made.get(whole, [])
         if whole.startswith("self.") and len(own) == 1 and own[0].lineno in first and name not in made:
-            made_by = ast.unparse(own[0].value)
+            made_by = unparse(own[0].value)
             if made_by.rpartition(".")[2].startswith("Result("):
                 yield (
                     own[0].lineno,
@@ -127,18 +127,18 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _lines_of_init(tree: ast.AST) -> set[int]:
-    functions = (n for n in walk(tree) if isinstance(n, ast.FunctionDef) and n.name == "__init__")
+    functions = (n for n in nodes_of(tree, ast.FunctionDef) if n.name == "__init__")
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
 def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
-    for node in walk(tree):
-        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+    for node in nodes_of(tree, ast.If):
+        if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
             continue
-        left, limit = ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
+        left, limit = unparse(node.test.left), unparse(node.test.comparators[0])
         drives = any(
-            ast.unparse(target).endswith("linear.x") and ast.unparse(value) not in ("0", "0.0")
+            unparse(target).endswith("linear.x") and unparse(value) not in ("0", "0.0")
             for part in node.body
             for target, value in assigned(part)
         )
@@ -154,32 +154,32 @@ def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
 
 def summed_places(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is a sum of velocities, where the odometry says the place itself."""
-    for node in walk(tree):
-        if not isinstance(node, ast.AugAssign) or not isinstance(node.op, ast.Add):
+    for node in nodes_of(tree, ast.AugAssign):
+        if not isinstance(node.op, ast.Add):
             continue
-        if ".twist.linear" in ast.unparse(node.value) and ast.unparse(node.target).startswith("self."):
+        if ".twist.linear" in unparse(node.value) and unparse(node.target).startswith("self."):
             yield (
                 node.lineno,
                 "summed_place",
-                f"{ast.unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
+                f"{unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
                 "with it; the place in the frame odom is pose.pose.position of the message",
             )
 
 
 def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
     """Find a program that reads the velocity of the odometry, and nowhere its position."""
-    named = {each.attr: each for each in walk(tree) if isinstance(each, ast.Attribute)}
+    named = {each.attr: each for each in nodes_of(tree, ast.Attribute)}
     if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
         return
-    whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".twist.twist")}
-    for node in walk(tree):
-        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
-            owner = ast.unparse(node.value)
+    whole = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith(".twist.twist")}
+    for node in nodes_of(tree, ast.Attribute):
+        if isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
+            owner = unparse(node.value)
             if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:
                 yield (
                     node.lineno,
                     "no_place",
-                    f"{ast.unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
+                    f"{unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
                     "pose.pose.position of the odometry",
                 )
                 return

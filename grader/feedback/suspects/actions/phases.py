@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse
 
 
 def _turns(block: list[ast.stmt]) -> bool:
     return any(
-        ast.unparse(target).endswith("angular.z") and ast.unparse(value) not in ("0", "0.0")
+        unparse(target).endswith("angular.z") and unparse(value) not in ("0", "0.0")
         for part in block
         for target, value in assigned(part)
     )
@@ -18,16 +18,16 @@ def _turns(block: list[ast.stmt]) -> bool:
 
 def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
     """Yield the name of a phase, and its value in which alone the robot turns."""
-    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
+    for node in nodes_of(tree, ast.If):
         name = ""
         value: object = None
         match node.test:
             case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant() as constant]):
-                name, value = ast.unparse(left), constant.value
+                name, value = unparse(left), constant.value
             case ast.UnaryOp(ast.Not(), ast.Name() | ast.Attribute() as left):
-                name, value = ast.unparse(left), False
+                name, value = unparse(left), False
             case ast.Name() | ast.Attribute() as left if not _turns(node.body) and _turns(node.orelse):
-                yield ast.unparse(left), False
+                yield unparse(left), False
         if name and _turns(node.body) and not _turns(node.orelse):
             yield name, value
 
@@ -39,9 +39,9 @@ def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
         ends: list[tuple[ast.Assign, bool]] = []
         for function in functions(tree):
             straight = {id(statement) for statement in function.body}
-            for statement in (each for each in walk(function) if isinstance(each, ast.Assign)):
+            for statement in nodes_of(function, ast.Assign):
                 for target, given in assigned(statement):
-                    if ast.unparse(target) != name:
+                    if unparse(target) != name:
                         continue
                     same = isinstance(given, ast.Constant) and given.value == value
                     (begins if same else ends).append((statement, id(statement) in straight))
@@ -51,8 +51,8 @@ def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     end.lineno,
                     "phase",
-                    f"{ast.unparse(end)} ends the turning for good: nothing sets it back to "
-                    f"{ast.unparse(before.value)} for the next waypoint",
+                    f"{unparse(end)} ends the turning for good: nothing sets it back to "
+                    f"{unparse(before.value)} for the next waypoint",
                 )
                 return
 

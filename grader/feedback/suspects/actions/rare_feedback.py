@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, called, calls, functions, nodes_of, unparse, walk
 
 Loop = ast.While | ast.For | ast.AsyncFor
 SENDS = "publish_feedback"
@@ -38,6 +38,8 @@ def _drivers(tree: ast.AST, node: ast.AST) -> Iterator[Loop]:
 
 def outside_of_the_loop(tree: ast.AST) -> Iterator[Suspect]:
     """Find feedback beside the loop that drives, where no loop that drives sends any."""
+    if SENDS not in called(tree):
+        return
     sending = _reaching(tree, frozenset({SENDS}))
     for function in functions(tree):
         drivers = list(_drivers(tree, function))
@@ -58,12 +60,10 @@ def under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
     if len(sent) != 1:
         return
     around = [
-        node
-        for node in walk(tree)
-        if isinstance(node, ast.If) and any(each is sent[0] for part in node.body for each in walk(part))
+        node for node in nodes_of(tree, ast.If) if any(each is sent[0] for part in node.body for each in walk(part))
     ]
-    if around and not CLOCK.search(ast.unparse(around[-1].test)):  # the innermost one is walked to last
-        yield sent[0].lineno, "rare_feedback", f"{SENDS}() is called only if `{ast.unparse(around[-1].test)[:80]}`"
+    if around and not CLOCK.search(unparse(around[-1].test)):  # the innermost one is walked to last
+        yield sent[0].lineno, "rare_feedback", f"{SENDS}() is called only if `{unparse(around[-1].test)[:80]}`"
 
 
 LOOKS = (outside_of_the_loop, under_a_condition)

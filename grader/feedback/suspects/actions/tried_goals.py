@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import Suspect, functions
+from gz_course.grader.feedback.facts.syntax import Suspect, functions, unparse
 
 LIMIT = 0.5  # [m/s] max_speed, if nobody sets it
 POINTS = ("a", "b")
@@ -47,7 +47,7 @@ class _Trial:
 
     def value(self, node: ast.expr | None) -> Any:
         """Return the value of an expression."""
-        text = ast.unparse(node) if node is not None else ""
+        text = unparse(node) if node is not None else ""
         match node:
             case ast.Constant(value=value):
                 return value
@@ -119,7 +119,7 @@ class _Trial:
                     if found := self.answer(body if self.tested(test) else orelse):
                         return found
                 case ast.Assign(targets=[ast.Name() | ast.Attribute() as target], value=value):
-                    self._assign(ast.unparse(target), value)
+                    self._assign(unparse(target), value)
                 case ast.Expr() | ast.Pass() | ast.Global():
                     pass
                 case _:
@@ -131,12 +131,12 @@ def wrong_answers(tree: ast.AST) -> Iterator[Suspect]:
     """Find a goal callback that refuses a goal that can be done, or accepts one that cannot, and the test for it."""
     first = next((each for each in functions(tree) if each.name == "__init__"), None)
     known = {
-        ast.unparse(statement.targets[0]): statement.value
+        unparse(statement.targets[0]): statement.value
         for statement in (first.body if first is not None else [])
         if isinstance(statement, ast.Assign) and len(statement.targets) == 1
     }
     for function in functions(tree):
-        text = ast.unparse(function)
+        text = unparse(function)
         goal = function.args.args[-1].arg if function.args.args else ""
         if "Response.ACCEPT" not in text or "Response.REJECT" not in text or f"{goal}." not in text:
             continue
@@ -148,12 +148,12 @@ def wrong_answers(tree: ast.AST) -> Iterator[Suspect]:
                 return
             if answer != ("ACCEPT" if right else "REJECT") and trial.tests:
                 of = "waypoints" if not points else "speed"
-                tests = [each for each in trial.tests if right or f".{of}" in ast.unparse(each[0])] or trial.tests
+                tests = [each for each in trial.tests if right or f".{of}" in unparse(each[0])] or trial.tests
                 test, held = tests[-1]
                 yield (
                     test.lineno,
                     about,
-                    f"`{ast.unparse(test)[:90]}` is {held} for {words}, so {function.name} "
+                    f"`{unparse(test)[:90]}` is {held} for {words}, so {function.name} "
                     f"{'rejects' if right else 'accepts'} it",
                 )
 

@@ -7,7 +7,17 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, last_name, left_early, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    functions,
+    last_name,
+    left_early,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 FIELD, CANCELLED = "visited", "is_cancel_requested"
 Loop = ast.While | ast.For
@@ -15,16 +25,16 @@ Loop = ast.While | ast.For
 
 def _counts(tree: ast.AST) -> set[str]:
     """Return the names of the field `visited`, and of all that it is set to."""
-    found = {ast.unparse(t) for t, _ in assigned(tree) if isinstance(t, ast.Attribute) and t.attr == FIELD}
+    found = {unparse(t) for t, _ in assigned(tree) if isinstance(t, ast.Attribute) and t.attr == FIELD}
     for value in _given(tree):
         if isinstance(value, ast.Name | ast.Attribute):
-            found.add(ast.unparse(value))
+            found.add(unparse(value))
     return found
 
 
 def _given(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield what is given to the field `visited`."""
-    yield from (node.value for node in walk(tree) if isinstance(node, ast.keyword) and node.arg == FIELD)
+    yield from (node.value for node in nodes_of(tree, ast.keyword) if node.arg == FIELD)
     for target, value in assigned(tree):
         if isinstance(target, ast.Attribute) and target.attr == FIELD:
             yield value
@@ -32,7 +42,7 @@ def _given(tree: ast.AST) -> Iterator[ast.expr]:
 
 def _drivers(tree: ast.AST) -> set[str]:
     """Return the functions with a loop that sleeps: what they do takes time."""
-    return {f.name for f in functions(tree) for n in walk(f) if isinstance(n, ast.While) and "sleep" in called(n)}
+    return {f.name for f in functions(tree) for n in nodes_of(f, ast.While) if "sleep" in called(n)}
 
 
 def _takes_time(statement: ast.stmt, drivers: set[str]) -> bool:
@@ -51,7 +61,7 @@ def counted_on_departure(tree: ast.AST) -> Iterator[Suspect]:
             if any(_takes_time(each, drivers) for each in loop.body[:number]):
                 break
             for target, value in assigned(statement):
-                if ast.unparse(target) not in names or (isinstance(value, ast.Constant) and value.value == 0):
+                if unparse(target) not in names or (isinstance(value, ast.Constant) and value.value == 0):
                     continue
                 grows = isinstance(statement, ast.AugAssign) or isinstance(value, ast.BinOp | ast.Name)
                 driven = next((each for each in later if _takes_time(each, drivers)), None)
@@ -59,25 +69,25 @@ def counted_on_departure(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         statement.lineno,
                         "counted",
-                        f"`{ast.unparse(statement)}` counts the waypoint before line {driven.lineno} drives to it: it "
+                        f"`{unparse(statement)}` counts the waypoint before line {driven.lineno} drives to it: it "
                         "belongs below that, where the robot has arrived",
                     )
 
 
 def counted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find a number of visited waypoints that is made where a goal is cancelled, and is no count."""
-    for test in (each for each in walk(tree) if isinstance(each, ast.If)):
+    for test in nodes_of(tree, ast.If):
         if not any("canceled" in called(each) for each in test.body):
             continue
         for value in (each for part in test.body for each in _given(part)):
-            text = ast.unparse(value)
+            text = unparse(value)
             if isinstance(value, ast.Call) and last_name(value.func) == "len":
                 yield value.lineno, "counted", f"`{text}` is the number of all waypoints of the goal, visited or not"
             elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add) and _is_one(value.right):
                 yield (
                     value.lineno,
                     "counted",
-                    f"`{text}` counts the waypoint to which the robot is still driving; `{ast.unparse(value.left)}` "
+                    f"`{text}` counts the waypoint to which the robot is still driving; `{unparse(value.left)}` "
                     "have been visited",
                 )
 
@@ -96,10 +106,10 @@ def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
             if (found := _ended_by_a_cancellation(statement, own)) is not None or ended is None:
                 ended = found
                 continue
-            asks = {CANCELLED, *ended.flags} & set(re.findall(r"\w+", ast.unparse(statement)))
+            asks = {CANCELLED, *ended.flags} & set(re.findall(r"\w+", unparse(statement)))
             if asks or (left_early(statement) and not isinstance(statement, Loop)):
                 break
-            counted = next((t for t, _ in assigned(statement) if ast.unparse(t) in names), None)
+            counted = next((t for t, _ in assigned(statement) if unparse(t) in names), None)
             if counted is not None and isinstance(statement, ast.Assign | ast.AugAssign):
                 leaves = any(left_early(each) for each in loop.body if not isinstance(each, Loop))
                 then = "" if leaves else f", and the loop of line {loop.lineno} goes on to the next one"
@@ -107,7 +117,7 @@ def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
                     ended.line,
                     "counted",
                     f"{ended.what} when the goal is cancelled; then line {statement.lineno}, "
-                    f"`{ast.unparse(statement)}`, counts the waypoint all the same{then}: ask for is_cancel_requested "
+                    f"`{unparse(statement)}`, counts the waypoint all the same{then}: ask for is_cancel_requested "
                     "before that line, too",
                 )
                 break
@@ -126,16 +136,16 @@ def _ended_by_a_cancellation(statement: ast.stmt, own: Mapping[str, ast.Function
     """Return what ends a loop, or a function of the file whose result is dropped, when a goal is cancelled."""
     if isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
         function = own.get(last_name(statement.value.func))
-        loops = [each for each in walk(function) if isinstance(each, ast.While)] if function is not None else []
-        if function is not None and any(CANCELLED in ast.unparse(each) for each in loops):
+        loops = [each for each in nodes_of(function, ast.While)] if function is not None else []
+        if function is not None and any(CANCELLED in unparse(each) for each in loops):
             sets = (last_name(target) for target, _ in assigned(function) if isinstance(target, ast.Attribute))
             return _End(statement.lineno, f"{function.name}() returns", frozenset(sets))
     if not isinstance(statement, ast.While | ast.For) or statement.orelse:
         return None
-    if isinstance(statement, ast.While) and CANCELLED in ast.unparse(statement.test):
-        return _End(statement.lineno, f"`while {ast.unparse(statement.test)[:80]}` ends")
-    for test in (each for part in statement.body for each in walk(part) if isinstance(each, ast.If)):
-        if CANCELLED in ast.unparse(test.test) and isinstance(test.body[-1], ast.Break):
+    if isinstance(statement, ast.While) and CANCELLED in unparse(statement.test):
+        return _End(statement.lineno, f"`while {unparse(statement.test)[:80]}` ends")
+    for test in (each for part in statement.body for each in nodes_of(part, ast.If)):
+        if CANCELLED in unparse(test.test) and isinstance(test.body[-1], ast.Break):
             flags = frozenset(last_name(target) for part in test.body for target, _ in assigned(part))
             return _End(test.body[-1].lineno, "this break leaves only the inner loop", flags)
     return None

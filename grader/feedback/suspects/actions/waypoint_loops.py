@@ -5,7 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 POINTS = ("waypoints", "points", "goals", "targets", "route", "path", "todo")
 
@@ -20,7 +29,7 @@ def _drives(tree: ast.AST) -> Iterator[ast.FunctionDef]:
 def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
     """Find a return, or a break, that every round of a loop over waypoints comes to."""
     for function in _drives(tree):
-        for loop in (each for each in walk(function) if isinstance(each, ast.For)):
+        for loop in nodes_of(function, ast.For):
             for statement in loop.body:
                 if isinstance(statement, ast.Return | ast.Break):
                     what = "return" if isinstance(statement, ast.Return) else "break"
@@ -65,7 +74,7 @@ def waypoints_left_out(tree: ast.AST) -> Iterator[Suspect]:
                     which = "last" if _one_less(last) else ""
             if which:
                 line = getattr(part, "lineno", function.lineno)
-                yield line, "left_out", f"`{ast.unparse(part)[:60]}` leaves out the {which} waypoint"
+                yield line, "left_out", f"`{unparse(part)[:60]}` leaves out the {which} waypoint"
         yield from _begins_at_one(function)
 
 
@@ -83,31 +92,29 @@ def _left_out(given: ast.AST) -> str:
             case ast.Call(func=ast.Name(id="range"), args=[first, last, *_]):
                 if _one_less(last):
                     return "last"
-                if _number(first) == 1 and ast.unparse(last).startswith("len("):
+                if _number(first) == 1 and unparse(last).startswith("len("):
                     return "first"
     return ""
 
 
 def _begins_at_one(function: ast.FunctionDef) -> Iterator[Suspect]:
     """Find an index that begins at 1 and counts up to the number of waypoints."""
-    loops = [each for each in walk(function) if isinstance(each, ast.While) and isinstance(each.test, ast.Compare)]
+    loops = [each for each in nodes_of(function, ast.While) if isinstance(each.test, ast.Compare)]
     counts = {
-        ast.unparse(each.test.left)  # type: ignore[attr-defined]
+        unparse(each.test.left)  # type: ignore[attr-defined]
         for each in loops
         if isinstance(each.test.ops[0], ast.Lt)  # type: ignore[attr-defined]
-        and ast.unparse(each.test.comparators[0]).startswith("len(")  # type: ignore[attr-defined]
+        and unparse(each.test.comparators[0]).startswith("len(")  # type: ignore[attr-defined]
     }
     for statement in function.body:
         for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
-            name = ast.unparse(target)
-            indexes = any(
-                isinstance(each, ast.Subscript) and ast.unparse(each.slice) == name for each in walk(function)
-            )
+            name = unparse(target)
+            indexes = any(isinstance(each, ast.Subscript) and unparse(each.slice) == name for each in walk(function))
             if name in counts and _number(value) == 1 and indexes:
                 yield (
                     statement.lineno,
                     "left_out",
-                    f"`{ast.unparse(statement)}` leaves out the first waypoint, whose index is 0",
+                    f"`{unparse(statement)}` leaves out the first waypoint, whose index is 0",
                 )
 
 
@@ -117,18 +124,18 @@ def flags_never_set_back(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         for target, value in assigned(function) if function.name != "__init__" else ():
             constant = value.value if isinstance(value, ast.Constant) else None
-            values.setdefault(ast.unparse(target), set()).add(constant)
+            values.setdefault(unparse(target), set()).add(constant)
     for function in _drives(tree):
-        for loop in (each for each in walk(function) if isinstance(each, ast.For)):
-            for inner in (each for part in loop.body for each in walk(part) if isinstance(each, ast.While)):
+        for loop in nodes_of(function, ast.For):
+            for inner in (each for part in loop.body for each in nodes_of(part, ast.While)):
                 for node in walk(inner.test):
                     match node:
                         case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name(id="self")) as flag):
-                            if values.get(name := ast.unparse(flag)) == {True}:
+                            if values.get(name := unparse(flag)) == {True}:
                                 yield (
                                     inner.lineno,
                                     "left_early",
-                                    f"{name} stays True from the first waypoint on, so `{ast.unparse(node)}` is False "
+                                    f"{name} stays True from the first waypoint on, so `{unparse(node)}` is False "
                                     f"at once for the next: set {name} to False before this loop",
                                 )
 

@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, set_to, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, nodes_of, set_to, unparse, walk
 
 OLDER, YOUNGER = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 LEAVES = ast.Return | ast.Continue
@@ -23,9 +23,7 @@ NANO = 1e9
 def turned(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if age > LIMIT:` before what uses the message, and `if age < LIMIT: return`."""
     values = set_to(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.If):
-            continue
+    for node in nodes_of(tree, ast.If):
         drops, uses = isinstance(node.body[-1], LEAVES) and not _acts(node.body), _acts(node.body)
         for test, holds in _parts(node.test, True):
             asked = _older(test, values)
@@ -35,7 +33,7 @@ def turned(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     test.lineno,
                     "age",
-                    f"`{ast.unparse(node.test)[:60]}` lets only old messages through, and drops the fresh ones, whose "
+                    f"`{unparse(node.test)[:60]}` lets only old messages through, and drops the fresh ones, whose "
                     "age is nearly 0: the comparison is the wrong way round",
                 )
 
@@ -43,9 +41,7 @@ def turned(tree: ast.AST) -> Iterator[Suspect]:
 def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
     """Find a limit of the age that is never passed, and a branch for old messages that does not drop them."""
     values, names = set_to(tree), named_numbers(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.If):
-            continue
+    for node in nodes_of(tree, ast.If):
         for test, holds in _parts(node.test, True):
             asked = _older(test, values)
             if asked is None or not isinstance(test, ast.Compare):
@@ -53,15 +49,14 @@ def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
             limit, large = _limit(test, values, names)
             if limit and not large:
                 said = (
-                    f"the limit {limit} in `{ast.unparse(node.test)[:60]}` is so small that nearly every message is "
-                    "too old"
+                    f"the limit {limit} in `{unparse(node.test)[:60]}` is so small that nearly every message is too old"
                 )
                 yield test.lineno, "young_age", said
             elif limit:
-                said = f"the limit {limit} in `{ast.unparse(node.test)[:60]}` is so large that no message is too old"
+                said = f"the limit {limit} in `{unparse(node.test)[:60]}` is so large that no message is too old"
                 yield test.lineno, "any_age", said
             elif asked == holds and not node.orelse and _says(node.body):
-                said = f"`{ast.unparse(node.test)[:60]}` only reports an old message; without return, it is used"
+                said = f"`{unparse(node.test)[:60]}` only reports an old message; without return, it is used"
                 yield test.lineno, "any_age", said
 
 
@@ -74,13 +69,13 @@ def _limit(test: ast.Compare, values: dict[str, list[ast.expr]], names: dict[str
     """Return the limit of an age as it is written, and whether it is large; empty if it may be right, or is unknown."""
     other = test.comparators[0] if _is_age(test.left, values, STEPS) else test.left
     whole = 1.0 if _in_seconds(test, values, STEPS) else NANO
-    given = values.get(ast.unparse(other), [other])
+    given = values.get(unparse(other), [other])
     known = number(other, names)
     large = (known is not None and abs(known) >= EVER * whole) or (len(given) == 1 and _endless(given[0]))
     if not large and (known is None or not 0 < known < SOON * whole):
         return "", False
-    shown = f"{number(given[0], {}):g}" if _is_number(given[0]) else ast.unparse(given[0])
-    return (shown if shown == ast.unparse(other) else f"{ast.unparse(other)} = {shown}"), large
+    shown = f"{number(given[0], {}):g}" if _is_number(given[0]) else unparse(given[0])
+    return (shown if shown == unparse(other) else f"{unparse(other)} = {shown}"), large
 
 
 def _is_number(node: ast.expr) -> bool:
@@ -90,19 +85,17 @@ def _is_number(node: ast.expr) -> bool:
 
 def _endless(node: ast.expr) -> bool:
     """Return whether an expression is infinity."""
-    return ast.unparse(node) in ("float('inf')", "math.inf", "np.inf", "numpy.inf", "inf")
+    return unparse(node) in ("float('inf')", "math.inf", "np.inf", "numpy.inf", "inf")
 
 
 def _in_seconds(node: ast.AST, values: dict[str, list[ast.expr]], steps: int) -> bool:
     """Return whether nanoseconds are divided, or not used at all, also by the names in an expression."""
-    parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    parts = [each for each in nodes_of(node, ast.Name, ast.Attribute)]
     if any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.Mult) for each in walk(node)):
         return True
     if any(isinstance(each, ast.Attribute) and each.attr == "nanoseconds" for each in parts):
         return False
-    given = [
-        value for each in parts for value in values.get(ast.unparse(each), ()) if not isinstance(value, ast.Constant)
-    ]
+    given = [value for each in parts for value in values.get(unparse(each), ()) if not isinstance(value, ast.Constant)]
     return steps <= 0 or all(_in_seconds(each, values, steps - 1) for each in given)
 
 
@@ -136,7 +129,7 @@ def _is_age(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bo
         if isinstance(each, ast.BinOp) and isinstance(each.op, ast.Sub):
             return _reads(each.left, "now", values, steps) and _reads(each.right, "stamp", values, steps)
         if isinstance(each, ast.Name | ast.Attribute) and steps:
-            given = values.get(ast.unparse(each), [])
+            given = values.get(unparse(each), [])
             if len(given) == 1 and _is_age(given[0], values, steps - 1):
                 return True
     return False
@@ -144,10 +137,10 @@ def _is_age(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bo
 
 def _reads(node: ast.expr, name: str, values: dict[str, list[ast.expr]], steps: int) -> bool:
     """Return whether an expression has an attribute of that name, also by the names in it."""
-    parts = [each for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)]
+    parts = [each for each in nodes_of(node, ast.Name, ast.Attribute)]
     if any(isinstance(each, ast.Attribute) and each.attr == name for each in parts):
         return True
-    given = [value for each in parts for value in values.get(ast.unparse(each), ())]
+    given = [value for each in parts for value in values.get(unparse(each), ())]
     return steps > 0 and any(_reads(each, name, values, steps - 1) for each in given)
 
 

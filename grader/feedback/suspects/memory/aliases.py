@@ -5,14 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, called, functions, nodes_of, unparse, walk
 
 
 def aliases(tree: ast.AST) -> Iterator[Suspect]:
     """Find `grid = self.map` followed by `grid[...] = ...` in a function that publishes no map."""
     for function in functions(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.Assign) or len(node.targets) != 1:
+        for node in nodes_of(function, ast.Assign):
+            if len(node.targets) != 1:
                 continue
             target, value = node.targets[0], node.value
             if isinstance(target, ast.Name) and isinstance(value, ast.Attribute) and _own(value):
@@ -20,8 +20,8 @@ def aliases(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         changed.lineno,
                         "alias",
-                        f"{ast.unparse(changed)[:70]} changes {ast.unparse(value)} itself, because {target.id} = "
-                        f"{ast.unparse(value)} in line {node.lineno} makes no copy: {ast.unparse(value)}.copy()",
+                        f"{unparse(changed)[:70]} changes {unparse(value)} itself, because {target.id} = "
+                        f"{unparse(value)} in line {node.lineno} makes no copy: {unparse(value)}.copy()",
                     )
 
 
@@ -35,8 +35,8 @@ def _changes(function: ast.FunctionDef, name: str, line: int) -> Iterator[ast.st
         target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
         if not isinstance(node, ast.Assign | ast.AugAssign) or node.lineno <= line or target is None:
             continue
-        part = isinstance(target, ast.Subscript) and ast.unparse(target.value) == name
-        if part or (isinstance(node, ast.AugAssign) and ast.unparse(target) == name and bool(called(node.value))):
+        part = isinstance(target, ast.Subscript) and unparse(target.value) == name
+        if part or (isinstance(node, ast.AugAssign) and unparse(target) == name and bool(called(node.value))):
             yield node
 
 

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, nodes_of, unparse
 
 FEWEST = 2
 
@@ -16,24 +16,20 @@ def every_nth_call(tree: ast.Module) -> Iterator[Suspect]:
     numbers = named_numbers(tree)
     for function in functions(tree):
         counters = {
-            ast.unparse(node.target): node.lineno
-            for node in walk(function)
-            if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and ast.unparse(node.value) == "1"
+            unparse(node.target): node.lineno
+            for node in nodes_of(function, ast.AugAssign)
+            if isinstance(node.op, ast.Add) and unparse(node.value) == "1"
         }
-        zeroed = {
-            ast.unparse(node.targets[0])
-            for node in walk(function)
-            if isinstance(node, ast.Assign) and ast.unparse(node.value) == "0"
-        }
-        for node in (each for each in walk(function) if isinstance(each, ast.If)):
+        zeroed = {unparse(node.targets[0]) for node in nodes_of(function, ast.Assign) if unparse(node.value) == "0"}
+        for node in nodes_of(function, ast.If):
             match node.test:
                 case (
                     ast.BinOp(op=ast.Mod(), left=counter, right=limit)
                     | ast.Compare(left=ast.BinOp(op=ast.Mod(), left=counter, right=limit))
                 ):
-                    counted = ast.unparse(counter) in counters
+                    counted = unparse(counter) in counters
                 case ast.Compare(left=counter, ops=[ast.GtE() | ast.Eq() | ast.Lt()], comparators=[limit]):
-                    counted = ast.unparse(counter) in zeroed and counters.get(ast.unparse(counter), 1e9) < node.lineno
+                    counted = unparse(counter) in zeroed and counters.get(unparse(counter), 1e9) < node.lineno
                 case _:
                     continue
             times = number(limit, numbers)
@@ -41,7 +37,7 @@ def every_nth_call(tree: ast.Module) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "every",
-                    f"{ast.unparse(node.test)[:60]} lets only one in {times:g} calls of {function.name} publish",
+                    f"{unparse(node.test)[:60]} lets only one in {times:g} calls of {function.name} publish",
                 )
 
 

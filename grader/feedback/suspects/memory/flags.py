@@ -5,18 +5,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, unparse, walk
 
 
 def for_ever(tree: ast.Module) -> Iterator[Suspect]:
     """Find a flag that chooses angular.z, is set to True in a callback of scans, and never to False again."""
-    if ".ranges" not in ast.unparse(tree):
+    if ".ranges" not in unparse(tree):
         return
     given: dict[str, list[tuple[str, ast.expr, ast.expr]]] = {}
     for function in functions(tree):
         for target, value in assigned(function):
-            given.setdefault(ast.unparse(target), []).append((function.name, target, value))
-    asked = {ast.unparse(each) for test in _choosing(tree) for each in walk(test)}
+            given.setdefault(unparse(target), []).append((function.name, target, value))
+    asked = {unparse(each) for test in _choosing(tree) for each in walk(test)}
     for name, values in given.items():
         later = [(target, value) for function, target, value in values if function != "__init__"]
         ever = bool(later) and all(isinstance(value, ast.Constant) and value.value is True for _, value in later)
@@ -36,7 +36,7 @@ def _choosing(tree: ast.AST) -> Iterator[ast.expr]:
 
 
 def _sets_the_rate(node: ast.If) -> bool:
-    return any(ast.unparse(target).endswith("angular.z") for target, _ in assigned(node))
+    return any(unparse(target).endswith("angular.z") for target, _ in assigned(node))
 
 
 LOOKS = (for_ever,)

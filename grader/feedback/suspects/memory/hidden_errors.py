@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, called, last_name, unparse, walk
 
 ANY_ERROR = ("", "Exception", "BaseException", "TypeError", "AttributeError", "NameError", "ValueError", "IndexError")
 SAYING = frozenset({"error", "warning", "warn", "fatal", "info", "print", "print_exc", "exception"})
@@ -21,7 +21,7 @@ def hidden(tree: ast.AST) -> Iterator[Suspect]:
             continue
         lines = f"{node.body[0].lineno} to {node.body[-1].end_lineno}"
         for handler in node.handlers:
-            kind = ast.unparse(handler.type) if handler.type is not None else ""
+            kind = unparse(handler.type) if handler.type is not None else ""
             again = any(isinstance(each, ast.Raise) for each in walk(handler))
             known = last_name(handler.type) if handler.type is not None else ""
             if known not in ANY_ERROR or called(handler) & SAYING or again:

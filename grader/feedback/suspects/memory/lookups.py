@@ -5,19 +5,19 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, unparse
 
 
 def exchanged(tree: ast.AST) -> Iterator[Suspect]:
     """Find a lookup whose target is the frame of a message, and whose source is not."""
-    frames = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith("header.frame_id")}
+    frames = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith("header.frame_id")}
     for call, name in calls(tree):
         given = {each.arg: each.value for each in call.keywords} | dict(
             zip(("target_frame", "source_frame"), call.args, strict=False)
         )
         if name != "lookup_transform" or not {"target_frame", "source_frame"} <= given.keys():
             continue
-        target, source = (ast.unparse(given[each]) for each in ("target_frame", "source_frame"))
+        target, source = (unparse(given[each]) for each in ("target_frame", "source_frame"))
         of_a_message = [each in frames or each.endswith("header.frame_id") for each in (target, source)]
         if of_a_message == [True, False]:
             yield (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, nodes_of, unparse, walk
 
 # Parts of names that keep a first value on purpose.
 FIRST = ("start", "first", "begin", "origin", "home", "init", "zero", "ref", "from", "old", "last", "prev")
@@ -31,13 +31,8 @@ def _set_by(tree: ast.AST) -> dict[str, set[str]]:
     """Return which functions assign each attribute of self as a whole."""
     found: dict[str, set[str]] = {}
     for function in functions(tree):
-        for node in walk(function):
-            if (
-                isinstance(node, ast.Attribute)
-                and isinstance(node.ctx, ast.Store)
-                and isinstance(node.value, ast.Name)
-                and node.value.id == "self"
-            ):
+        for node in nodes_of(function, ast.Attribute):
+            if isinstance(node.ctx, ast.Store) and isinstance(node.value, ast.Name) and node.value.id == "self":
                 found.setdefault(node.attr, set()).add(function.name)
     return found
 
@@ -47,8 +42,8 @@ def _copies(function: ast.FunctionDef, tree: ast.AST) -> Iterator[tuple[str, ast
 
     A parameter is one if the file calls the function with something of self.
     """
-    for node in walk(function):
-        if not isinstance(node, ast.Assign) or len(node.targets) != 1:
+    for node in nodes_of(function, ast.Assign):
+        if len(node.targets) != 1:
             continue
         target, value = node.targets[0], node.value
         pairs = [(target, value)]
@@ -57,7 +52,7 @@ def _copies(function: ast.FunctionDef, tree: ast.AST) -> Iterator[tuple[str, ast
             pairs = list(zip(target.elts, values, strict=False))
         yield from ((one.id, other, node.lineno) for one, other in pairs if isinstance(one, ast.Name))
     names = [each.arg for each in function.args.args if each.arg != "self"]
-    for call in (each for each in walk(tree) if isinstance(each, ast.Call)):
+    for call in nodes_of(tree, ast.Call):
         if isinstance(call.func, ast.Attribute) and call.func.attr == function.name:
             yield from ((name, value, call.lineno) for name, value in zip(names, call.args, strict=False))
 
@@ -71,13 +66,13 @@ def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
             for each in _copies(function, tree)
             if set_by.get(_attribute(each[1]), set()) - {"__init__", function.name}
         ]
-        for loop in (each for each in walk(function) if isinstance(each, ast.While) and called(each) & WAITS):
-            names = [each for each in walk(loop) if isinstance(each, ast.Name)]
+        for loop in (each for each in nodes_of(function, ast.While) if called(each) & WAITS):
+            names = [each for each in nodes_of(loop, ast.Name)]
             read = {each.id for each in names if isinstance(each.ctx, ast.Load)}
             anew = {each.id for each in names if isinstance(each.ctx, ast.Store)}
             lines = range(loop.lineno, (loop.end_lineno or loop.lineno) + 1)
             old = {
-                name: (ast.unparse(value), line)
+                name: (unparse(value), line)
                 for name, value, line in copies
                 if name in read - anew and line not in lines and not _on_purpose(name)
             }
@@ -98,15 +93,15 @@ def first_message_kept(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that takes what it keeps from its first message only."""
     for function in functions(tree):
         message = {each.arg for each in function.args.args if each.arg != "self"}
-        for test in (each for each in walk(function) if isinstance(each, ast.If)):
+        for test in nodes_of(function, ast.If):
             name = _tested_for_none(test.test)
             inside = [each for part in test.body for each in walk(part)]
             sets = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, name)]
             if not name or _on_purpose(name) or not sets:
                 continue
-            others = [each for each in walk(tree) if isinstance(each, ast.Assign) and _sets(each, name)]
-            anew = [each for each in others if each not in sets and ast.unparse(each.value) != "None"]
-            if not anew and {each.id for each in walk(sets[0].value) if isinstance(each, ast.Name)} & message:
+            others = [each for each in nodes_of(tree, ast.Assign) if _sets(each, name)]
+            anew = [each for each in others if each not in sets and unparse(each.value) != "None"]
+            if not anew and {each.id for each in nodes_of(sets[0].value, ast.Name)} & message:
                 yield (
                     sets[0].lineno,
                     "first_kept",
@@ -120,16 +115,16 @@ def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         message = {each.arg for each in function.args.args if each.arg != "self"}
         for place, test in enumerate(function.body):
-            if not isinstance(test, ast.If) or ast.unparse(test.body[-1]) not in ("return", "return None"):
+            if not isinstance(test, ast.If) or unparse(test.body[-1]) not in ("return", "return None"):
                 continue
             name = _tested_for_a_value(test.test)
             behind = [node for part in function.body[place + 1 :] for node in walk(part)]
             sets = [node for node in behind if isinstance(node, ast.Assign) and _sets(node, name)]
-            others = [node for node in walk(tree) if isinstance(node, ast.Assign) and _sets(node, name)]
-            anew = [node for node in others if node not in sets and ast.unparse(node.value) != "None"]
+            others = [node for node in nodes_of(tree, ast.Assign) if _sets(node, name)]
+            anew = [node for node in others if node not in sets and unparse(node.value) != "None"]
             if not name or _on_purpose(name) or not sets or anew:
                 continue
-            if {node.id for node in walk(sets[0].value) if isinstance(node, ast.Name)} & message:
+            if {node.id for node in nodes_of(sets[0].value, ast.Name)} & message:
                 yield (
                     test.lineno,
                     "first_kept",
@@ -144,10 +139,10 @@ def set_by_default(tree: ast.AST) -> Iterator[Suspect]:
         message = {each.arg for each in function.args.args if each.arg != "self"}
         made = {name for t, v in assigned(function) if _names(v) & message for name in _names(t)}
         for call, name in calls(function):
-            kept = isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value).startswith("self.")
+            kept = isinstance(call.func, ast.Attribute) and unparse(call.func.value).startswith("self.")
             if name != "setdefault" or not kept or len(call.args) != 2 or _is_empty(call.args[1]):
                 continue
-            if _names(call.args[1]) & (message | made) and not _on_purpose(ast.unparse(call)):
+            if _names(call.args[1]) & (message | made) and not _on_purpose(unparse(call)):
                 yield (
                     call.lineno,
                     "first_kept",
@@ -157,23 +152,23 @@ def set_by_default(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _names(node: ast.AST) -> set[str]:
-    return {each.id for each in walk(node) if isinstance(each, ast.Name)}
+    return {each.id for each in nodes_of(node, ast.Name)}
 
 
 def _is_empty(node: ast.expr) -> bool:
-    return ast.unparse(node) in ("[]", "{}", "list()", "dict()", "set()")
+    return unparse(node) in ("[]", "{}", "list()", "dict()", "set()")
 
 
 def _tested_for_a_value(test: ast.expr) -> str:
     """Return the attribute of `self.x is not None` or `self.x`; empty for another test."""
     if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.IsNot):
-        return _attribute(test.left) if ast.unparse(test.comparators[0]) == "None" else ""
+        return _attribute(test.left) if unparse(test.comparators[0]) == "None" else ""
     return _attribute(test)
 
 
 def _tested_for_none(test: ast.expr) -> str:
     """Return the attribute of `self.x is None` or `not self.x`; empty for another test."""
-    if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and ast.unparse(test.comparators[0]) == "None":
+    if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and unparse(test.comparators[0]) == "None":
         return _attribute(test.left)
     return _attribute(test.operand) if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not) else ""
 

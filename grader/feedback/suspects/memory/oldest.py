@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, unparse
 from gz_course.grader.feedback.suspects.memory.old_values import FIRST
 
 ADDS = frozenset({"append", "appendleft"})
@@ -13,23 +13,23 @@ ADDS = frozenset({"append", "appendleft"})
 
 def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.poses[0]` as the pose of now, where each message is appended to `self.poses`."""
-    listening = [each for each in functions(tree) if ".pose.pose" in ast.unparse(each) or "_odom" in each.name]
+    listening = [each for each in functions(tree) if ".pose.pose" in unparse(each) or "_odom" in each.name]
     kept: dict[str, str] = {}
     for function in listening:
         for call, name in calls(function):
             if name in ADDS and isinstance(call.func, ast.Attribute) and isinstance(call.func.value, ast.Attribute):
-                kept[ast.unparse(call.func.value)] = name
+                kept[unparse(call.func.value)] = name
     for function in functions(tree):
         for target, value in assigned(function):
-            if isinstance(value, ast.Call) and ast.unparse(value) in {f"min({each})" for each in kept}:
-                yield value.lineno, "pose", f"{ast.unparse(value)} is the oldest pose that is kept: [-1] is the newest"
+            if isinstance(value, ast.Call) and unparse(value) in {f"min({each})" for each in kept}:
+                yield value.lineno, "pose", f"{unparse(value)} is the oldest pose that is kept: [-1] is the newest"
             part = value.value if isinstance(value, ast.Attribute) else value
             whole = part.value if isinstance(part, ast.Subscript) else part
-            name, adds = ast.unparse(whole), kept.get(ast.unparse(whole), "")
+            name, adds = unparse(whole), kept.get(unparse(whole), "")
             if not isinstance(part, ast.Subscript) or not adds or _on_purpose(target):
                 continue
             old, new = ("0", "-1") if adds == "append" else ("-1", "0")
-            if ast.unparse(part.slice) == old and f"{name}[{new}]" not in ast.unparse(function):
+            if unparse(part.slice) == old and f"{name}[{new}]" not in unparse(function):
                 yield (
                     part.lineno,
                     "pose",
@@ -39,7 +39,7 @@ def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _on_purpose(target: ast.expr) -> bool:
-    return any(part in ast.unparse(target).lower() for part in FIRST)
+    return any(part in unparse(target).lower() for part in FIRST)
 
 
 LOOKS = (oldest_taken,)

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.planning.own_places import CORNER_X, CORNER_Y, X, Y
 from gz_course.grader.feedback.suspects.planning.ways import AIMED
 
@@ -16,23 +16,23 @@ HEADINGS = re.compile(r"err|angle|diff|delta|turn|bearing|heading|yaw|theta", re
 def without_heading(tree: ast.AST) -> Iterator[Suspect]:
     """Find `error = atan2(goal_y - y, goal_x - x)`, by which angular.z turns, although no heading is taken off it."""
     for function in functions(tree):
-        turns = [value for target, value in assigned(function) if ast.unparse(target).endswith("angular.z")]
+        turns = [value for target, value in assigned(function) if unparse(target).endswith("angular.z")]
         for target, value in assigned(function):
             aimed = [call for call, name in calls(value) if name in AIMED and len(call.args) == 2]
             if len(aimed) != 1 or not all(isinstance(each, ast.BinOp) for each in aimed[0].args):
                 continue
-            name = ast.unparse(target)
+            name = unparse(target)
             inside = {id(each) for each in walk(aimed[0])}
             taken_off = any(_is_difference(each) for each in walk(value) if id(each) not in inside)
-            later = any(
-                _is_difference(each) and name in map(ast.unparse, walk(each)) for each in walk(function)
-            ) or any(ast.unparse(each.target) == name for each in walk(function) if isinstance(each, ast.AugAssign))
-            used = any(name in map(ast.unparse, walk(each)) for each in turns)
+            later = any(_is_difference(each) and name in map(unparse, walk(each)) for each in walk(function)) or any(
+                unparse(each.target) == name for each in nodes_of(function, ast.AugAssign)
+            )
+            used = any(name in map(unparse, walk(each)) for each in turns)
             if used and not taken_off and not later:
                 yield (
                     value.lineno,
                     "sign",
-                    f"{ast.unparse(aimed[0])[:70]} is the direction of the goal in odom, and angular.z turns by it as "
+                    f"{unparse(aimed[0])[:70]} is the direction of the goal in odom, and angular.z turns by it as "
                     "if the robot looked along x: subtract the heading of the robot, and wrap the difference",
                 )
 
@@ -43,31 +43,31 @@ def _is_difference(node: ast.AST) -> bool:
 
 def other_branch(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if abs(error) < 0.5:` with a turn on the spot below it, and with the drive in the other branch."""
-    for node in (each for each in walk(tree) if isinstance(each, ast.If) and each.orelse):
+    for node in (each for each in nodes_of(tree, ast.If) if each.orelse):
         match node.test:
             case ast.Compare(
                 left=ast.Call(func=func, args=[error]), ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE() as op]
-            ) if ast.unparse(func).rpartition(".")[2] in ("abs", "fabs"):
+            ) if unparse(func).rpartition(".")[2] in ("abs", "fabs"):
                 small = node.body if isinstance(op, ast.Lt | ast.LtE) else node.orelse
                 large = node.orelse if small is node.body else node.body
             case _:
                 continue
-        if HEADINGS.search(ast.unparse(error)) and _drives(large) and not _drives(small) and _turns(small):
+        if HEADINGS.search(unparse(error)) and _drives(large) and not _drives(small) and _turns(small):
             yield (
                 node.lineno,
                 "sign",
-                f"`{ast.unparse(node.test)[:60]}`: the robot turns on the spot while {ast.unparse(error)} is small, "
+                f"`{unparse(node.test)[:60]}`: the robot turns on the spot while {unparse(error)} is small, "
                 "and drives while it is large: the two branches, or < and >, are exchanged",
             )
 
 
 def _drives(block: list[ast.stmt]) -> bool:
     sets = [pair for each in block for pair in assigned(each)]
-    return any(ast.unparse(one).endswith("linear.x") and ast.unparse(value) not in ("0", "0.0") for one, value in sets)
+    return any(unparse(one).endswith("linear.x") and unparse(value) not in ("0", "0.0") for one, value in sets)
 
 
 def _turns(block: list[ast.stmt]) -> bool:
-    return any(ast.unparse(one).endswith("angular.z") for each in block for one, _ in assigned(each))
+    return any(unparse(one).endswith("angular.z") for each in block for one, _ in assigned(each))
 
 
 def crossed(tree: ast.AST) -> Iterator[Suspect]:
@@ -81,12 +81,12 @@ def crossed(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 call.lineno,
                 "cell",
-                f"{ast.unparse(call)[:70]} subtracts y from x and x from y: x belongs to x, and y to y",
+                f"{unparse(call)[:70]} subtracts y from x and x from y: x belongs to x, and y to y",
             )
 
 
 def _axis(node: ast.expr) -> str:
-    text = ast.unparse(node)
+    text = unparse(node)
     return "x" if X.search(text) else "y" if Y.search(text) else ""
 
 
@@ -95,11 +95,11 @@ def without_corner(tree: ast.AST) -> Iterator[Suspect]:
     subtracts = any(
         isinstance(node, ast.BinOp)
         and isinstance(node.op, ast.Sub)
-        and (CORNER_X.search(ast.unparse(node.right)) or CORNER_Y.search(ast.unparse(node.right)))
+        and (CORNER_X.search(unparse(node.right)) or CORNER_Y.search(unparse(node.right)))
         for node in walk(tree)
     )
     for function in functions(tree) if subtracts else ():
-        text = ast.unparse(function)
+        text = unparse(function)
         if CORNER_X.search(text) or CORNER_Y.search(text) or "origin" in text.lower():
             continue
         for node in walk(function):
@@ -112,7 +112,7 @@ def without_corner(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         node.lineno,
                         "cell",
-                        f"{ast.unparse(node)[:60]} is how far cell {ast.unparse(cell)} is from the corner of the map: "
+                        f"{unparse(node)[:60]} is how far cell {unparse(cell)} is from the corner of the map: "
                         "add the corner to have a place in odom",
                     )
                     return

@@ -6,25 +6,25 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse
 
 EMPTY = re.compile(r"^not |\bis None\b|^len\(.*\) (?:== 0|< 1)$|== \[\]$")
 
 
 def finished_for_ever(tree: ast.AST) -> Iterator[Suspect]:
     """Find a flag that is set where a search has found nothing, and that no line ever sets back."""
-    for name, places in _flags(tree).items() if "OccupancyGrid" in ast.unparse(tree) else ():
+    for name, places in _flags(tree).items() if "OccupancyGrid" in unparse(tree) else ():
         if not _guards(tree, name):
             continue
         for function in functions(tree):
-            for node in (each for each in walk(function) if isinstance(each, ast.If)):
+            for node in nodes_of(function, ast.If):
                 place = next((each for each in node.body if each.lineno in places), None)
-                test = ast.unparse(node.test)
+                test = unparse(node.test)
                 if place is not None and EMPTY.search(test) and name not in test and ".scan" not in test:
                     yield (
                         place.lineno,
                         "flag",
-                        f"{ast.unparse(place)[:40]} is set as soon as `{test[:40]}` holds, and nothing sets it back: "
+                        f"{unparse(place)[:40]} is set as soon as `{test[:40]}` holds, and nothing sets it back: "
                         "if that is so at the first call, before a scan has come, the robot never drives; wait for a "
                         "scan before you search, and search again later",
                     )
@@ -36,7 +36,7 @@ def planned_once(tree: ast.AST) -> Iterator[Suspect]:
     states: dict[str, list[tuple[str, str]]] = {}
     for function in functions(tree):
         for target, value in assigned(function):
-            states.setdefault(ast.unparse(target), []).append((function.name, ast.unparse(value)))
+            states.setdefault(unparse(target), []).append((function.name, unparse(value)))
     for function in functions(tree):
         if function.name == "__init__" or not any(isinstance(each, ast.While | ast.For) for each in function.body):
             continue
@@ -44,17 +44,17 @@ def planned_once(tree: ast.AST) -> Iterator[Suspect]:
             if not isinstance(node.body[-1], ast.Return) or len(node.body) > 1:
                 continue
             for test in node.test.values if isinstance(node.test, ast.BoolOp) else [node.test]:
-                name = ast.unparse(test)
+                name = unparse(test)
                 own = [each for each in function.body if each.lineno in flags.get(name, ())]
                 if own:
-                    yield node.lineno, "way", _once(function.name, ast.unparse(own[0]))
+                    yield node.lineno, "way", _once(function.name, unparse(own[0]))
                 match test:
                     case ast.Compare(left=left, ops=[ast.NotEq()], comparators=[ast.Constant(value=str()) as asked]):
-                        given = states.get(ast.unparse(left), [])
-                        begun = {where for where, text in given if text == ast.unparse(asked)}
-                        other = [text for where, text in given if where == function.name and text != ast.unparse(asked)]
+                        given = states.get(unparse(left), [])
+                        begun = {where for where, text in given if text == unparse(asked)}
+                        other = [text for where, text in given if where == function.name and text != unparse(asked)]
                         if begun == {"__init__"} and other:
-                            yield node.lineno, "way", _once(function.name, f"{ast.unparse(left)} = {other[-1]}")
+                            yield node.lineno, "way", _once(function.name, f"{unparse(left)} = {other[-1]}")
 
 
 def kept_way(tree: ast.AST) -> Iterator[Suspect]:
@@ -63,21 +63,19 @@ def kept_way(tree: ast.AST) -> Iterator[Suspect]:
         for node in (each for each in function.body if isinstance(each, ast.If)):
             match node.test:
                 case ast.Attribute() as way if isinstance(node.body[-1], ast.Return) and len(node.body) == 1:
-                    name = ast.unparse(way)
+                    name = unparse(way)
                 case _:
                     continue
             changed = any(
-                part in ast.unparse(other)
+                part in unparse(other)
                 for other in functions(tree)
                 if other.name != "__init__"
                 for part in (f"{name}.pop", f"{name}.clear", f"{name}.remove", f"del {name}", f"{name} = []")
             )
             makers = {
-                other.name for other in functions(tree) if any(ast.unparse(one) == name for one, _ in assigned(other))
+                other.name for other in functions(tree) if any(unparse(one) == name for one, _ in assigned(other))
             }
-            read = any(
-                f"in {name}:" in ast.unparse(each) or f"{name}[" in ast.unparse(each) for each in functions(tree)
-            )
+            read = any(f"in {name}:" in unparse(each) or f"{name}[" in unparse(each) for each in functions(tree))
             if read and not changed and function.name in makers <= {function.name, "__init__"}:
                 yield (
                     node.lineno,
@@ -100,7 +98,7 @@ def _flags(tree: ast.AST) -> dict[str, set[int]]:
     begun, places, others = set(), dict[str, set[int]](), set()
     for function in functions(tree):
         for target, value in assigned(function):
-            name = ast.unparse(target)
+            name = unparse(target)
             if not name.startswith("self."):
                 continue
             constant = value.value if isinstance(value, ast.Constant) else None
@@ -115,10 +113,8 @@ def _flags(tree: ast.AST) -> dict[str, set[int]]:
 
 def _guards(tree: ast.AST, name: str) -> bool:
     """Return whether a function does nothing, or leaves out most of what it does, once a flag is set."""
-    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
-        parts = [
-            ast.unparse(each) for each in ([*node.test.values] if isinstance(node.test, ast.BoolOp) else [node.test])
-        ]
+    for node in nodes_of(tree, ast.If):
+        parts = [unparse(each) for each in ([*node.test.values] if isinstance(node.test, ast.BoolOp) else [node.test])]
         if (name in parts and any(isinstance(each, ast.Return) for each in node.body)) or f"not {name}" in parts:
             return True
     return False

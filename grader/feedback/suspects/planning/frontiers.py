@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, last_name, nodes_of, unparse, walk
 
 UNKNOWN = ("-1", "UNKNOWN", "self.UNKNOWN", "unknown")
 SIDES = 3  # at least, of the four neighbours of a cell
@@ -13,9 +13,9 @@ SIDES = 3  # at least, of the four neighbours of a cell
 
 def unknown_on_all_sides(tree: ast.AST) -> Iterator[Suspect]:
     """Find `all(value(cell) == -1 for cell in neighbours)`, or as many comparisons joined by `and`."""
-    if "OccupancyGrid" not in ast.unparse(tree):
+    if "OccupancyGrid" not in unparse(tree):
         return
-    denied = {id(n.operand) for n in walk(tree) if isinstance(n, ast.UnaryOp) and isinstance(n.op, ast.Not)}
+    denied = {id(n.operand) for n in nodes_of(tree, ast.UnaryOp) if isinstance(n.op, ast.Not)}
     for node in walk(tree):
         match node:
             case ast.Call(func=func, args=[ast.GeneratorExp() | ast.ListComp() as each]) if last_name(func) == "all":
@@ -28,7 +28,7 @@ def unknown_on_all_sides(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "way",
-                f"`{ast.unparse(node)[:80]}` asks for unknown cells on every side, and a free cell that a ray has "
+                f"`{unparse(node)[:80]}` asks for unknown cells on every side, and a free cell that a ray has "
                 "reached has a free one on the side where the ray came from: one unknown neighbour makes a frontier, "
                 "any(...)",
             )
@@ -40,7 +40,7 @@ def _is_unknown(node: ast.expr) -> bool:
         return any(_is_unknown(each) for each in node.values)
     match node:
         case ast.Compare(ops=[ast.Eq()], comparators=[value]):
-            return ast.unparse(value) in UNKNOWN
+            return unparse(value) in UNKNOWN
         case ast.Compare(ops=[ast.Lt()], comparators=[ast.Constant(value=0)]):
             return True
     return False

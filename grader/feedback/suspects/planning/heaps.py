@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse, walk
 
 NAMES = frozenset({"heappush", "put"})
 
@@ -13,14 +13,14 @@ NAMES = frozenset({"heappush", "put"})
 def other_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find `heappush(heap, (cell, cost))` and `heappush(heap, (-cost, cell))`."""
     for function in functions(tree):
-        values = {ast.unparse(target): value for target, value in assigned(function)}
+        values = {unparse(target): value for target, value in assigned(function)}
         keys = _keys(function)
         for call, name in calls(function):
             pushed = call.args[-1] if name in NAMES and call.args else None
             if not isinstance(pushed, ast.Tuple) or len(pushed.elts) < 2 or not _in_a_search(function, call):
                 continue
             first, rest = pushed.elts[0], pushed.elts[1:]
-            texts = [ast.unparse(each) for each in (pushed, first)]
+            texts = [unparse(each) for each in (pushed, first)]
             if _negative(first, values):
                 yield (
                     call.lineno,
@@ -39,22 +39,22 @@ def other_first(tree: ast.AST) -> Iterator[Suspect]:
 
 def _in_a_search(function: ast.FunctionDef, call: ast.Call) -> bool:
     """Return whether a call stands in a loop that takes out what is put in."""
-    loops = (each for each in walk(function) if isinstance(each, ast.While))
+    loops = nodes_of(function, ast.While)
     takes = ("heappop(", ".get()", ".get_nowait()")
-    return any(call in walk(loop) and any(each in ast.unparse(loop) for each in takes) for loop in loops)
+    return any(call in walk(loop) and any(each in unparse(loop) for each in takes) for loop in loops)
 
 
 def _keys(function: ast.FunctionDef) -> set[str]:
     """Return the names by which something is looked up: `cost[cell]`, `cell in done`, `done.add(cell)`."""
-    found = {ast.unparse(each.slice) for each in walk(function) if isinstance(each, ast.Subscript)}
-    for each in walk(function):
-        if isinstance(each, ast.Compare) and isinstance(each.ops[0], ast.In | ast.NotIn):
-            found.add(ast.unparse(each.left))
-    return found | {ast.unparse(call.args[0]) for call, name in calls(function) if name in ("add", "get") and call.args}
+    found = {unparse(each.slice) for each in nodes_of(function, ast.Subscript)}
+    for each in nodes_of(function, ast.Compare):
+        if isinstance(each.ops[0], ast.In | ast.NotIn):
+            found.add(unparse(each.left))
+    return found | {unparse(call.args[0]) for call, name in calls(function) if name in ("add", "get") and call.args}
 
 
 def _negative(node: ast.expr, values: dict[str, ast.expr]) -> bool:
-    value = values.get(ast.unparse(node), node)
+    value = values.get(unparse(node), node)
     return (
         isinstance(value, ast.UnaryOp)
         and isinstance(value.op, ast.USub)
@@ -63,7 +63,7 @@ def _negative(node: ast.expr, values: dict[str, ast.expr]) -> bool:
 
 
 def _is_a_cost(node: ast.expr, values: dict[str, ast.expr]) -> bool:
-    value = values.get(ast.unparse(node), node)
+    value = values.get(unparse(node), node)
     return isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add)
 
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.planning.own_places import CORNER_X, CORNER_Y
 
 OF_X, OF_Y = re.compile(r"(?:\b|_)[a-z]?x\b"), re.compile(r"(?:\b|_)[a-z]?y\b")
@@ -16,21 +16,21 @@ COLUMNS_FIRST = re.compile(r"\((?:\w+\.)*(?:width|w|cols|columns), (?:\w+\.)*(?:
 
 def exchanged(tree: ast.AST) -> Iterator[Suspect]:
     """Find `x0 + (j + 0.5) * size`, where j was made of y, and `grid[i, j]`, where i was, of an array of rows."""
-    text = ast.unparse(tree)
+    text = unparse(tree)
     rows_first = bool(ROWS_FIRST.search(text)) and not COLUMNS_FIRST.search(text)
     for function in functions(tree):
         kinds = _kinds(function)
         for node in walk(function) if len(set(kinds.values())) > 1 else ():
             match node:
                 case ast.BinOp(left=corner, op=ast.Add(), right=ast.BinOp(op=ast.Mult()) as rest):
-                    of = "x" if CORNER_X.search(ast.unparse(corner)) else "y"
-                    known = of == "x" or CORNER_Y.search(ast.unparse(corner))
+                    of = "x" if CORNER_X.search(unparse(corner)) else "y"
+                    known = of == "x" or CORNER_Y.search(unparse(corner))
                     made = {kinds[name] for name in _names(rest) if name in kinds}
                     if known and len(made) == 1 and made != {of}:
                         yield (
                             node.lineno,
                             "cell",
-                            f"{ast.unparse(node)[:60]} makes {of} of a number of cells that was made of {made.pop()}",
+                            f"{unparse(node)[:60]} makes {of} of a number of cells that was made of {made.pop()}",
                         )
                 case ast.Subscript(slice=ast.Tuple(elts=[first, second])) if rows_first:
                     made = {kinds[name] for name in _names(first) if name in kinds}
@@ -39,7 +39,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
                         yield (
                             node.lineno,
                             "cell",
-                            f"{ast.unparse(node)[:60]} has the number of cells along x first, but the array has its "
+                            f"{unparse(node)[:60]} has the number of cells along x first, but the array has its "
                             "rows first, which lie along y: the index is [row, column]",
                         )
 
@@ -49,7 +49,7 @@ def _kinds(function: ast.FunctionDef) -> dict[str, str]:
     found: dict[str, str] = {}
     others: set[str] = set()
     for target, value in assigned(function):
-        name, text = ast.unparse(target), ast.unparse(value)
+        name, text = unparse(target), unparse(value)
         kind = found.get(text, "")
         if any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.FloorDiv) for each in walk(value)):
             x, y = bool(OF_X.search(text)), bool(OF_Y.search(text))
@@ -61,7 +61,7 @@ def _kinds(function: ast.FunctionDef) -> dict[str, str]:
 
 
 def _names(node: ast.AST) -> set[str]:
-    return {each.id for each in walk(node) if isinstance(each, ast.Name)}
+    return {each.id for each in nodes_of(node, ast.Name)}
 
 
 LOOKS = (exchanged,)

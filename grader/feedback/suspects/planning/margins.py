@@ -7,7 +7,15 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+)
 
 CELL = 0.1  # [m]
 NOTHING = ("0", "FREE", "self.FREE")
@@ -16,7 +24,7 @@ NARROW, WIDE = 2, 5  # [cells] at most, at least
 
 def margins(tree: ast.Module) -> Iterator[Suspect]:
     """Find by how many cells walls are widened before a way is planned."""
-    if "OccupancyGrid" not in ast.unparse(tree):
+    if "OccupancyGrid" not in unparse(tree):
         return
     for line, code, cells in _widenings(tree):
         if 0 <= cells <= NARROW:
@@ -37,19 +45,19 @@ def margins(tree: ast.Module) -> Iterator[Suspect]:
 
 def widened_unknown(tree: ast.AST) -> Iterator[Suspect]:
     """Find walls that are widened together with what is unknown, which closes every way to a frontier."""
-    if "OccupancyGrid" not in ast.unparse(tree):
+    if "OccupancyGrid" not in unparse(tree):
         return
     for function in functions(tree):
-        for node in (each for each in walk(function) if isinstance(each, ast.If)):
-            reaches = [_reach(each.iter) for each in walk(node) if isinstance(each, ast.For)]
+        for node in nodes_of(function, ast.If):
+            reaches = [_reach(each.iter) for each in nodes_of(node, ast.For)]
             if len([each for each in reaches if each]) < 2 or len(node.body) != 1:
                 continue
             match node.test:
-                case ast.Compare(ops=[ast.NotEq()], comparators=[free]) if ast.unparse(free) in NOTHING:
+                case ast.Compare(ops=[ast.NotEq()], comparators=[free]) if unparse(free) in NOTHING:
                     yield (
                         node.lineno,
                         "wide",
-                        f"`{ast.unparse(node.test)[:60]}` is true for unknown cells, too, and they are widened like "
+                        f"`{unparse(node.test)[:60]}` is true for unknown cells, too, and they are widened like "
                         "walls, so no free cell beside an unknown one can be reached: widen the occupied cells only",
                     )
 
@@ -60,8 +68,8 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
     for function in functions(tree):
         reaches = [
             (each.iter.lineno, name)
-            for each in walk(function)
-            if isinstance(each, ast.For | ast.comprehension) and (name := _reach(each.iter))
+            for each in nodes_of(function, ast.For, ast.comprehension)
+            if (name := _reach(each.iter))
         ]
         names = [each.arg for each in function.args.args if each.arg != "self"]
         for name in {name for _, name in reaches}:
@@ -79,7 +87,7 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
                 if called == function.name and len(call.args) > place and _of_walls(call):
                     value = number(call.args[place], known)
                     if value is not None:
-                        yield call.lineno, ast.unparse(call.args[place]), value
+                        yield call.lineno, unparse(call.args[place]), value
     for call, called in calls(tree):
         for each in call.keywords:
             value = number(each.value, known)
@@ -91,28 +99,28 @@ def _reach(of: ast.expr) -> str:
     """Return the code of r of `range(-r, r + 1)`; empty if it is another loop."""
     match of:
         case ast.Call(func=ast.Name(id="range"), args=[ast.UnaryOp(op=ast.USub(), operand=reach), _]):
-            return ast.unparse(reach) if isinstance(reach, ast.Name | ast.Attribute) else ""
+            return unparse(reach) if isinstance(reach, ast.Name | ast.Attribute) else ""
     return ""
 
 
 def _made_at(function: ast.FunctionDef, name: str) -> int:
     """Return the line of a function that assigns a name; 0 if it does not."""
-    made = (each for each in walk(function) if isinstance(each, ast.Assign))
-    return next((each.lineno for each in made if name in [ast.unparse(target) for target in each.targets]), 0)
+    made = nodes_of(function, ast.Assign)
+    return next((each.lineno for each in made if name in [unparse(target) for target in each.targets]), 0)
 
 
 def _by_cells(function: ast.FunctionDef, name: str, known: dict[str, Number]) -> Number | None:
     """Return the number that a function assigns to a name, if a resolution whose value is not written is a cell's."""
     for target, value in assigned(function):
-        if ast.unparse(target) == name:
-            text = re.sub(r"(?:\w+\.)*(?:resolution|cell_size)\b", f"{CELL}", ast.unparse(value))
+        if unparse(target) == name:
+            text = re.sub(r"(?:\w+\.)*(?:resolution|cell_size)\b", f"{CELL}", unparse(value))
             return number(ast.parse(text, mode="eval").body, known)
     return None
 
 
 def _of_walls(call: ast.Call) -> bool:
     """Return whether what is widened is not what is unknown, as for the search for frontiers."""
-    first = ast.unparse(call.args[0]).lower()
+    first = unparse(call.args[0]).lower()
     return "unknown" not in first and "-1" not in first and "free" not in first and last_name(call.func) != "roll"
 
 

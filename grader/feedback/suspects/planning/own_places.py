@@ -6,7 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 CORNER_X = re.compile(
     r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
@@ -32,13 +41,13 @@ def other_order(tree: ast.AST) -> Iterator[Suspect]:
             wrong = bool(named) and _part(first) == ("1", _part(second)[1]) and _part(second)[0] == "0"
             for one, other in PAIRS:
                 if one.search(takes[place]) and other.search(takes[place + 1]):
-                    texts = ast.unparse(first), ast.unparse(second)
+                    texts = unparse(first), unparse(second)
                     wrong = wrong or bool(other.search(texts[0]) and one.search(texts[1]))
             if wrong:
                 yield (
                     call.lineno,
                     "cell",
-                    f"{ast.unparse(call)[:60]} gives {name} its arguments in the other order: it takes "
+                    f"{unparse(call)[:60]} gives {name} its arguments in the other order: it takes "
                     f"({takes[place]}, {takes[place + 1]})",
                 )
 
@@ -46,7 +55,7 @@ def other_order(tree: ast.AST) -> Iterator[Suspect]:
 def _part(node: ast.expr) -> tuple[str, str]:
     """Return the index of a part, and the whole: ("1", "pose") of `pose[1]`."""
     if isinstance(node, ast.Subscript):
-        return ast.unparse(node.slice), ast.unparse(node.value)
+        return unparse(node.slice), unparse(node.value)
     return "", ""
 
 
@@ -55,32 +64,32 @@ def corner_minus_point(tree: ast.AST) -> Iterator[Suspect]:
     for node in walk(tree):
         match node:
             case ast.BinOp(left=ast.BinOp(left=point, op=ast.Div() | ast.FloorDiv()), op=ast.Sub(), right=corner):
-                text, other = ast.unparse(corner), ast.unparse(point)
+                text, other = unparse(corner), unparse(point)
                 if (CORNER_X.search(text) and X.search(other)) or (CORNER_Y.search(text) and Y.search(other)):
                     yield (
                         node.lineno,
                         "cell",
-                        f"{ast.unparse(node)[:60]} subtracts the corner [m] from a number of cells: subtract first, "
+                        f"{unparse(node)[:60]} subtracts the corner [m] from a number of cells: subtract first, "
                         f"then divide, ({other} - {text}) / resolution",
                     )
             case ast.BinOp(left=ast.BinOp(left=corner, op=ast.Sub(), right=point), op=ast.Div() | ast.FloorDiv()):
-                text, other = ast.unparse(corner), ast.unparse(point)
+                text, other = unparse(corner), unparse(point)
                 x, y = bool(CORNER_X.search(text)), bool(CORNER_Y.search(text))
                 if (x and X.search(other)) or (y and Y.search(other)):
                     yield (
                         node.lineno,
                         "cell",
-                        f"{ast.unparse(node)[:60]} is negative for every point in the map: it is the point minus the "
+                        f"{unparse(node)[:60]} is negative for every point in the map: it is the point minus the "
                         f"corner, ({other} - {text})",
                     )
 
 
 def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
     """Find `x0 + (row + 0.5) * resolution`: x grows with the column."""
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Add):
             continue
-        corner, rest = ast.unparse(node.left), ast.unparse(node.right)
+        corner, rest = unparse(node.left), unparse(node.right)
         if not isinstance(node.right, ast.BinOp) or not isinstance(node.right.op, ast.Mult):
             continue
         for pattern, wrong, right, axis in (
@@ -88,13 +97,13 @@ def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
             (CORNER_Y, COLUMN, ROW, "y grows with the row, x with the column"),
         ):
             if pattern.search(corner) and wrong.search(rest) and not right.search(rest):
-                yield node.lineno, "cell", f"{ast.unparse(node)[:60]} exchanges rows and columns: {axis}"
+                yield node.lineno, "cell", f"{unparse(node)[:60]} exchanges rows and columns: {axis}"
 
 
 def assigned_wholes(tree: ast.AST) -> Iterator[tuple[str, ast.Tuple]]:
     """Yield the name of each attribute to which a tuple is assigned, and the tuple."""
-    for node in walk(tree):
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Tuple):
+    for node in nodes_of(tree, ast.Assign):
+        if isinstance(node.value, ast.Tuple):
             yield from ((each.attr, node.value) for each in node.targets if isinstance(each, ast.Attribute))
 
 
@@ -103,7 +112,7 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
     kept: dict[str, set[tuple[str, ...]]] = {}
     for owner, value in assigned_wholes(tree):
         kept.setdefault(owner, set()).add(tuple(last_name(each) for each in value.elts))
-    for node in (each for each in walk(tree) if isinstance(each, ast.Assign)):
+    for node in nodes_of(tree, ast.Assign):
         target, orders = node.targets[0], kept.get(last_name(node.value), set())
         if not isinstance(target, ast.Tuple) or len(orders) != 1:
             continue
@@ -115,7 +124,7 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "pose",
-                f"{ast.unparse(node)} takes the parts in another order than that in which they are kept: "
+                f"{unparse(node)} takes the parts in another order than that in which they are kept: "
                 f"{', '.join(each or '...' for each in order)}",
             )
 
@@ -123,9 +132,7 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
 def corner_added(tree: ast.AST) -> Iterator[Suspect]:
     """Find `(x + origin_x) / resolution` where origin_x is sent as the origin of the map: it must be subtracted."""
     sent = {
-        last_name(value)
-        for target, value in assigned(tree)
-        if re.search(r"origin\.position\.[xy]$", ast.unparse(target))
+        last_name(value) for target, value in assigned(tree) if re.search(r"origin\.position\.[xy]$", unparse(target))
     } - {""}
     for node in walk(tree):
         match node:
@@ -135,7 +142,7 @@ def corner_added(tree: ast.AST) -> Iterator[Suspect]:
                         yield (
                             node.lineno,
                             "cell",
-                            f"{ast.unparse(node)[:60]} adds the corner of the map, {ast.unparse(corner)}: a cell is "
+                            f"{unparse(node)[:60]} adds the corner of the map, {unparse(corner)}: a cell is "
                             "counted from the corner, so subtract it",
                         )
 
@@ -147,13 +154,13 @@ def other_stride(tree: ast.AST) -> Iterator[Suspect]:
             case ast.BinOp(
                 left=ast.BinOp(left=one, op=ast.Mult(), right=other), op=ast.Add(), right=ast.Name() | ast.Attribute()
             ):
-                names = (ast.unparse(one), ast.unparse(other)), (ast.unparse(other), ast.unparse(one))
+                names = (unparse(one), unparse(other)), (unparse(other), unparse(one))
                 for row, length in names:
                     if ROWS.search(row) and HEIGHTS.search(length):
                         yield (
                             node.lineno,
                             "stride",
-                            f"{ast.unparse(node)[:60]} multiplies the row by the number of rows: a row is width cells "
+                            f"{unparse(node)[:60]} multiplies the row by the number of rows: a row is width cells "
                             f"long, so the place is {row} * width + column",
                         )
 

@@ -6,7 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+)
 
 NEAREST = frozenset({"min", "argmin", "sorted", "argsort", "sort"})
 DISTANCE = re.compile(r"\bhypot\(|\bnorm\(|\bdist(?:ance)?\(|\*\* 2")
@@ -15,27 +24,27 @@ TAKES = frozenset({"pop", "popleft", "heappop", "get", "get_nowait"})
 
 def straight_goals(tree: ast.AST) -> Iterator[Suspect]:
     """Find the nearest of several cells as the crow flies, where no loop takes cells out of a queue."""
-    loops = (node for node in walk(tree) if isinstance(node, ast.While | ast.For))
+    loops = nodes_of(tree, ast.While, ast.For)
     if any(called(loop) & TAKES and called(loop) & {"append", "heappush", "put", "add"} for loop in loops):
         return
-    if "OccupancyGrid" not in ast.unparse(tree):
+    if "OccupancyGrid" not in unparse(tree):
         return
-    if re.search(r"dijkstra|a_?star|bfs|wave|flood|shortest_path|potential", ast.unparse(tree), re.IGNORECASE):
+    if re.search(r"dijkstra|a_?star|bfs|wave|flood|shortest_path|potential", unparse(tree), re.IGNORECASE):
         return
     for function in functions(tree):
-        distances = {ast.unparse(target) for target, value in assigned(function) if DISTANCE.search(ast.unparse(value))}
+        distances = {unparse(target) for target, value in assigned(function) if DISTANCE.search(unparse(value))}
         for call, name in calls(function):
             given = [*call.args, *(each.value for each in call.keywords)]
             if name not in NEAREST or not given:
                 continue
-            text = " ".join(ast.unparse(each) for each in given)
+            text = " ".join(unparse(each) for each in given)
             keys = [last_name(each.value) for each in call.keywords if each.arg == "key"]
-            own = any(one.name in keys and DISTANCE.search(ast.unparse(one)) for one in functions(tree))
+            own = any(one.name in keys and DISTANCE.search(unparse(one)) for one in functions(tree))
             if "ranges" not in text and (DISTANCE.search(text) or text in distances or own):
                 yield (
                     call.lineno,
                     "straight",
-                    f"{ast.unparse(call)[:60]} takes the goal that is nearest in a straight line, and nothing searches "
+                    f"{unparse(call)[:60]} takes the goal that is nearest in a straight line, and nothing searches "
                     "a way to it: a wall may stand between; search through free cells, breadth first",
                 )
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TypeGuard
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, nodes_of, unparse, walk
 
 COUNTS = re.compile(r"hit|pass|free|miss|seen|count|visit|evidence|score|odds", re.IGNORECASE)
 MANY = 10  # observations, after which a scanner has turned elsewhere
@@ -16,7 +16,7 @@ MANY = 10  # observations, after which a scanner has turned elsewhere
 
 def many_observations(tree: ast.Module) -> Iterator[Suspect]:
     """Find `self.passes > 60`, by which a cell that was seen 60 times is still unknown."""
-    if "OccupancyGrid" not in ast.unparse(tree):
+    if "OccupancyGrid" not in unparse(tree):
         return
     known = named_numbers(tree)
     for node in walk(tree):
@@ -27,30 +27,30 @@ def many_observations(tree: ast.Module) -> Iterator[Suspect]:
                 pass
             case _:
                 continue
-        least, text = number(limit, known), ast.unparse(counted)
+        least, text = number(limit, known), unparse(counted)
         scanned = isinstance(counted, ast.Attribute | ast.Subscript) and COUNTS.search(text)
         if least is not None and least >= MANY and scanned and "len(" not in text:
             yield (
                 node.lineno,
                 "threshold",
-                f"{ast.unparse(node)[:60]} asks for {least:g} observations of a cell, and most cells are seen less "
+                f"{unparse(node)[:60]} asks for {least:g} observations of a cell, and most cells are seen less "
                 "often: decide by which of hits and passes are more, from the first one on",
             )
 
 
 def free_again(tree: ast.Module) -> Iterator[Suspect]:
     """Find `grid[hits > 0] = 100` before `grid[passes > 0] = 0`, where walls that rays have passed become free."""
-    if "OccupancyGrid" not in ast.unparse(tree):
+    if "OccupancyGrid" not in unparse(tree):
         return
     for block in _blocks(tree):
         walls: dict[str, tuple[int, ast.expr]] = {}
         for statement in block:
             match statement:
                 case ast.Assign(targets=[ast.Subscript(value=grid, slice=mask)], value=value):
-                    shown = ast.unparse(value).rpartition(".")[2]
+                    shown = unparse(value).rpartition(".")[2]
                 case _:
                     continue
-            name = ast.unparse(grid)
+            name = unparse(grid)
             if shown in ("100", "OCCUPIED"):
                 walls[name] = statement.lineno, mask
             elif shown in ("0", "FREE") and name in walls:
@@ -64,7 +64,7 @@ def free_again(tree: ast.Module) -> Iterator[Suspect]:
                     yield (
                         statement.lineno,
                         "erased",
-                        f"`{ast.unparse(statement)[:70]}` comes after line {line}, `{ast.unparse(first)[:50]}`, which "
+                        f"`{unparse(statement)[:70]}` comes after line {line}, `{unparse(first)[:50]}`, which "
                         "makes cells occupied: where both hold, as in walls that some ray has passed, the later one "
                         "counts, so they are free: exchange the two lines",
                     )
@@ -85,8 +85,8 @@ def _alone(mask: ast.expr) -> TypeGuard[ast.Compare]:
 def _counted(node: ast.expr) -> set[str]:
     """Return what is compared first in a mask."""
     left = node.left if isinstance(node, ast.Compare) else node
-    names = (each for each in walk(left) if isinstance(each, ast.Attribute | ast.Name))
-    return {ast.unparse(each) for each in names} - {"self", "np"}
+    names = nodes_of(left, ast.Attribute, ast.Name)
+    return {unparse(each) for each in names} - {"self", "np"}
 
 
 LOOKS = (many_observations, free_again)

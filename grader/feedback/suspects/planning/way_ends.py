@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.planning.ways import SHORTENS, TURNS_ROUND, never_shortened
 
 COLLECTS = frozenset({"append", "insert", "appendleft"})
@@ -15,23 +15,21 @@ def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
     """Find a file that reads only the first, or only the last, cell of a way that it searched from start to goal."""
     if any(never_shortened(tree)):
         return  # which says more
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
-        for way in {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}:
+    for owner in nodes_of(tree, ast.ClassDef):
+        for way in {unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}:
             makers = [each for each in functions(owner) if each.name != "__init__" and _makes(each, way)]
-            if not makers and any(ast.unparse(one) == way and isinstance(of, ast.Call) for one, of in assigned(owner)):
+            if not makers and any(unparse(one) == way and isinstance(of, ast.Call) for one, of in assigned(owner)):
                 makers = [each for each in functions(tree) if _follows_back(each)]
-            turned = any(called(each) & TURNS_ROUND or "[::-1]" in ast.unparse(each) for each in makers)
-            changed = any(
-                ast.unparse(call.func) in {f"{way}.{name}" for name in SHORTENS} for call, name in calls(owner)
-            )
-            cut = any(f"{way}[1:]" in ast.unparse(each) or "[1:]" in ast.unparse(each) for each in functions(owner))
+            turned = any(called(each) & TURNS_ROUND or "[::-1]" in unparse(each) for each in makers)
+            changed = any(unparse(call.func) in {f"{way}.{name}" for name in SHORTENS} for call, name in calls(owner))
+            cut = any(f"{way}[1:]" in unparse(each) or "[1:]" in unparse(each) for each in functions(owner))
             read = [
                 node
-                for node in walk(owner)
-                if isinstance(node, ast.Subscript) and ast.unparse(node.value) == way and isinstance(node.ctx, ast.Load)
+                for node in nodes_of(owner, ast.Subscript)
+                if unparse(node.value) == way and isinstance(node.ctx, ast.Load)
             ]
-            kinds = {ast.unparse(node.slice) for node in read}
-            looped = any(ast.unparse(each.iter) == way for each in walk(owner) if isinstance(each, ast.For))
+            kinds = {unparse(node.slice) for node in read}
+            looped = any(unparse(each.iter) == way for each in nodes_of(owner, ast.For))
             if not makers or not turned or changed or cut or len(kinds) != 1 or looped:
                 continue
             if kinds == {"0"}:
@@ -56,44 +54,43 @@ def _is_a_list(target: ast.expr, value: ast.expr) -> bool:
 
 def _makes(function: ast.FunctionDef, way: str) -> bool:
     """Return whether a function collects a way back from its goal: `cell = before[cell]` in a loop."""
-    return any(ast.unparse(target) == way for target, _ in assigned(function)) and _follows_back(function)
+    return any(unparse(target) == way for target, _ in assigned(function)) and _follows_back(function)
 
 
 def _follows_back(function: ast.FunctionDef) -> bool:
     return bool(called(function) & COLLECTS) and any(
-        isinstance(value, ast.Subscript) and ast.unparse(value.slice) == ast.unparse(target)
-        for loop in walk(function)
-        if isinstance(loop, ast.While)
+        isinstance(value, ast.Subscript) and unparse(value.slice) == unparse(target)
+        for loop in nodes_of(function, ast.While)
         for target, value in assigned(loop)
     )
 
 
 def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.way.pop()` after a test of `self.way[0]`: the last cell is taken out, not the one that is reached."""
-    for node in (each for each in walk(tree) if isinstance(each, ast.While | ast.If)):
+    for node in nodes_of(tree, ast.While, ast.If):
         for call, name in (pair for part in node.body for pair in calls(part)):
-            way = ast.unparse(call.func).rpartition(".")[0]
-            whole = ast.unparse(node.test)
+            way = unparse(call.func).rpartition(".")[0]
+            whole = unparse(node.test)
             if name == "pop" and not call.args and f"{way}[0]" in whole and f"{way}[-1]" not in whole:
                 yield (
                     call.lineno,
                     "way",
-                    f"{ast.unparse(call)} takes the last cell out of the way, and `{whole[:50]}` is about the first "
+                    f"{unparse(call)} takes the last cell out of the way, and `{whole[:50]}` is about the first "
                     f"one: {way}.pop(0) takes out what is reached",
                 )
 
 
 def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop over a way that returns, or breaks, in its first pass whatever the cell is."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
-        ways = {ast.unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}
-        for loop in (node for node in walk(owner) if isinstance(node, ast.For)):
+    for owner in nodes_of(tree, ast.ClassDef):
+        ways = {unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}
+        for loop in nodes_of(owner, ast.For):
             early = any(isinstance(each, ast.Continue) for each in walk(loop))
-            if ast.unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
+            if unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
                 yield (
                     loop.lineno,
                     "way",
-                    f"the loop over {ast.unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
+                    f"the loop over {unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
                     "it always takes the first cell of the way, in which the robot stands: a condition must say which "
                     "cell is far enough",
                 )

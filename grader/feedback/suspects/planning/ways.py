@@ -6,7 +6,19 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    children,
+    functions,
+    kept,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.suspects.steering.headings import HEADING
 
 SHORTENS = frozenset({"pop", "popleft", "remove", "clear"})
@@ -20,19 +32,19 @@ AIMED = frozenset({"atan2", "arctan2"})
 def depth_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find a search for a way that goes on from the cell that was added last."""
     for function in functions(tree):
-        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
+        for loop in nodes_of(function, ast.While):
             for target, value in assigned(loop):
                 if not isinstance(value, ast.Call) or last_name(value.func) != "pop" or value.args:
                     continue
-                queue = ast.unparse(value.func).rpartition(".")[0]
-                names = {each.id for each in walk(target) if isinstance(each, ast.Name)}
-                added = any(ast.unparse(call.func) == f"{queue}.append" for call, _ in calls(loop))
-                kept = any(isinstance(one, ast.Subscript) and ast.unparse(other) in names for one, other in _set(loop))
-                if queue in ast.unparse(loop.test) and added and kept:
+                queue = unparse(value.func).rpartition(".")[0]
+                names = {each.id for each in nodes_of(target, ast.Name)}
+                added = any(unparse(call.func) == f"{queue}.append" for call, _ in calls(loop))
+                kept = any(isinstance(one, ast.Subscript) and unparse(other) in names for one, other in _set(loop))
+                if queue in unparse(loop.test) and added and kept:
                     yield (
                         value.lineno,
                         "search",
-                        f"{ast.unparse(value)} takes the newest cell of {queue}, so the search runs deep before it "
+                        f"{unparse(value)} takes the newest cell of {queue}, so the search runs deep before it "
                         "looks around: its ways wind and lead to some goal, not to the nearest; the oldest cell, "
                         "popleft() of a deque, gives the shortest way",
                     )
@@ -45,37 +57,33 @@ def _set(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
 def backwards(tree: ast.AST) -> Iterator[Suspect]:
     """Find a way that is followed back from its goal to the start, and not turned round."""
     for function in functions(tree):
-        if called(function) & TURNS_ROUND or "[::-1]" in ast.unparse(function) or _from_the_end(tree):
+        if called(function) & TURNS_ROUND or "[::-1]" in unparse(function) or _from_the_end(tree):
             continue
-        for loop in (node for node in walk(function) if isinstance(node, ast.While)):
+        for loop in nodes_of(function, ast.While):
             steps = {
-                ast.unparse(target)
+                unparse(target)
                 for target, value in assigned(loop)
-                if isinstance(value, ast.Subscript) and ast.unparse(value.slice) == ast.unparse(target)
+                if isinstance(value, ast.Subscript) and unparse(value.slice) == unparse(target)
             }
             for call, name in calls(loop):
-                if name == "append" and call.args and ast.unparse(call.args[0]) in steps:
-                    way = ast.unparse(call.func).rpartition(".")[0]
+                if name == "append" and call.args and unparse(call.args[0]) in steps:
+                    way = unparse(call.func).rpartition(".")[0]
                     ahead = ("pop()", "[::-1]", "reverse", "[len(")
-                    if not any(each in ast.unparse(tree) for each in ahead):
+                    if not any(each in unparse(tree) for each in ahead):
                         yield (
                             call.lineno,
                             "way",
-                            f"{ast.unparse(call)} collects the way from the goal back to the start, and nothing turns "
+                            f"{unparse(call)} collects the way from the goal back to the start, and nothing turns "
                             f"it round: its first cells are those at the goal; {way}.reverse() makes it begin here",
                         )
 
 
+@kept
 def _from_the_end(tree: ast.AST) -> bool:
     """Return whether a function takes the last cell of a way, and does not go through it from its first one."""
     for function in functions(tree):
-        ends = {
-            ast.unparse(each.value)
-            for each in walk(function)
-            if ast.unparse(each).endswith("[-1]")
-            if isinstance(each, ast.Subscript)
-        }
-        loops = {ast.unparse(each.iter) for each in walk(function) if isinstance(each, ast.For)}
+        ends = {unparse(each.value) for each in nodes_of(function, ast.Subscript) if unparse(each).endswith("[-1]")}
+        loops = {unparse(each.iter) for each in nodes_of(function, ast.For)}
         if ends - loops:
             return True
     return False
@@ -83,24 +91,24 @@ def _from_the_end(tree: ast.AST) -> bool:
 
 def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
     """Find a way that is planned only while there is none, and of which no cell is ever taken out."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
-        for node in (each for each in walk(owner) if isinstance(each, ast.If)):
+    for owner in nodes_of(tree, ast.ClassDef):
+        for node in nodes_of(owner, ast.If):
             match node.test:
                 case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute() as kept):
-                    way = ast.unparse(kept)
+                    way = unparse(kept)
                 case ast.Compare(left=ast.Attribute() as kept, comparators=[ast.Constant(value=None)]):
-                    way = ast.unparse(kept)
+                    way = unparse(kept)
                 case ast.Compare(
                     left=ast.Call(func=ast.Name(id="len"), args=[kept]), comparators=[ast.Constant(value=0)]
                 ):
-                    way = ast.unparse(kept)
+                    way = unparse(kept)
                 case _:
                     continue
             planners = _planners(owner, way)
             in_test = {id(each) for part in node.body for each in walk(part)}
             there = {id(each) for one in functions(owner) if one.name in planners for each in walk(one)}
             planned = any(
-                ast.unparse(target) == way
+                unparse(target) == way
                 and isinstance(value, ast.Call)
                 and last_name(value.func) in {one.name for one in functions(owner) if called(one) & COLLECTS}
                 for target, value in assigned(node)
@@ -111,16 +119,14 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
                 in_test | there | {id(each) for one in functions(owner) if one.name == "__init__" for each in walk(one)}
             )
             others = [
-                target
-                for target, _ in assigned(owner)
-                if ast.unparse(target).startswith(way) and id(target) not in inside
+                target for target, _ in assigned(owner) if unparse(target).startswith(way) and id(target) not in inside
             ]
             shortened = any(
-                name in SHORTENS and ast.unparse(call.func).startswith(f"{way}.") and id(call) not in there
+                name in SHORTENS and unparse(call.func).startswith(f"{way}.") and id(call) not in there
                 for call, name in calls(owner)
             )
-            deleted = any(isinstance(each, ast.Delete) and way in ast.unparse(each) for each in walk(owner))
-            followed = any(isinstance(each, ast.Subscript) and ast.unparse(each.value) == way for each in walk(owner))
+            deleted = any(isinstance(each, ast.Delete) and way in unparse(each) for each in walk(owner))
+            followed = any(isinstance(each, ast.Subscript) and unparse(each.value) == way for each in walk(owner))
             again = calls_planner and any(
                 last_name(call.func) in calls_planner and id(call) not in in_test for call, _ in calls(owner)
             )
@@ -139,7 +145,7 @@ def _planners(owner: ast.ClassDef, way: str) -> set[str]:
         one.name
         for one in functions(owner)
         if one.name != "__init__"
-        and any(ast.unparse(target) == way for target, _ in assigned(one))
+        and any(unparse(target) == way for target, _ in assigned(one))
         and (called(one) & COLLECTS)
         and any(isinstance(each, ast.While) for each in walk(one))
     }
@@ -148,7 +154,7 @@ def _planners(owner: ast.ClassDef, way: str) -> set[str]:
 def first_pose(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that returns if it has a pose already, and so keeps that of its first message."""
     for function in functions(tree):
-        if ".pose.pose." not in ast.unparse(function):
+        if ".pose.pose." not in unparse(function):
             continue
         for node in function.body:
             if not isinstance(node, ast.If) or not isinstance(node.body[-1], ast.Return):
@@ -160,16 +166,15 @@ def first_pose(tree: ast.AST) -> Iterator[Suspect]:
                     pass
                 case _:
                     continue
-            name = ast.unparse(kept)
+            name = unparse(kept)
             later = {
-                ast.unparse(part)
+                unparse(part)
                 for target, _ in assigned(function)
                 if target.lineno > node.lineno
-                for part in walk(target)
-                if isinstance(part, ast.Attribute)
+                for part in nodes_of(target, ast.Attribute)
             }
             elsewhere = any(
-                ast.unparse(target) == name
+                unparse(target) == name
                 for other in functions(tree)
                 for target, _ in assigned(other)
                 if other is not function and other.name != "__init__"
@@ -186,21 +191,21 @@ def first_pose(tree: ast.AST) -> Iterator[Suspect]:
 def small_counters(tree: ast.AST) -> Iterator[Suspect]:
     """Find an array of 8 bits in which something is counted."""
     small = {
-        ast.unparse(target): value.lineno
+        unparse(target): value.lineno
         for target, value in assigned(tree)
-        if isinstance(value, ast.Call) and SMALL.search(ast.unparse(value)) and last_name(value.func) != "astype"
+        if isinstance(value, ast.Call) and SMALL.search(unparse(value)) and last_name(value.func) != "astype"
     }
     for function in functions(tree):
-        limited = {ast.unparse(each) for call, name in calls(function) if name in HOLDS for each in walk(call)}
+        limited = {unparse(each) for call, name in calls(function) if name in HOLDS for each in walk(call)}
         for node in walk(function):
             name = ""
             if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Subscript | ast.Attribute):
                 whole = node.target.value if isinstance(node.target, ast.Subscript) else node.target
                 while isinstance(whole, ast.Subscript):
                     whole = whole.value
-                name = ast.unparse(whole)
-            elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("add.at") and node.args:
-                name = ast.unparse(node.args[0])
+                name = unparse(whole)
+            elif isinstance(node, ast.Call) and unparse(node.func).endswith("add.at") and node.args:
+                name = unparse(node.args[0])
             if name in small and name not in limited:
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
@@ -214,31 +219,29 @@ def small_counters(tree: ast.AST) -> Iterator[Suspect]:
 
 def turned_the_wrong_way(tree: ast.AST) -> Iterator[Suspect]:
     """Find an error that is the heading minus the direction of the goal, and turns the robot with a positive gain."""
-    values = {ast.unparse(target): value for target, value in assigned(tree)}
+    values = {unparse(target): value for target, value in assigned(tree)}
     aimed = {
-        name
-        for name, value in values.items()
-        if called(value) & AIMED and not re.search(r"\.[wz]\b", ast.unparse(value))
+        name for name, value in values.items() if called(value) & AIMED and not re.search(r"\.[wz]\b", unparse(value))
     }
     for target, value in assigned(tree):
-        for node in walk(value):
-            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
+        for node in nodes_of(value, ast.BinOp):
+            if not isinstance(node.op, ast.Sub):
                 continue
-            left, right = ast.unparse(node.left), ast.unparse(node.right)
+            left, right = unparse(node.left), unparse(node.right)
             backward = isinstance(node.left, ast.Attribute | ast.Name) and HEADING.search(left) and left not in aimed
             if not backward or not (right in aimed or right.startswith(("atan2(", "math.atan2(", "np.arctan2("))):
                 continue
-            error = ast.unparse(target)
+            error = unparse(target)
             used = [
                 other
                 for one, other in assigned(tree)
-                if ast.unparse(one).endswith("angular.z") and error in {ast.unparse(each) for each in walk(other)}
+                if unparse(one).endswith("angular.z") and error in {unparse(each) for each in walk(other)}
             ]
             if used and all(_sign(each, error, values) > 0 for each in used):
                 yield (
                     node.lineno,
                     "sign",
-                    f"{ast.unparse(node)[:60]} is the error with the wrong sign, and angular.z turns by it: the robot "
+                    f"{unparse(node)[:60]} is the error with the wrong sign, and angular.z turns by it: the robot "
                     "turns away from its goal; it is the direction of the goal minus the heading",
                 )
 
@@ -248,7 +251,7 @@ def _sign(node: ast.expr, name: str, values: dict[str, ast.expr]) -> int:
 
     A gain with a name is what it was assigned, or positive.
     """
-    if ast.unparse(node) == name:
+    if unparse(node) == name:
         return 1
     match node:
         case ast.UnaryOp(op=ast.USub(), operand=inner):
@@ -257,63 +260,55 @@ def _sign(node: ast.expr, name: str, values: dict[str, ast.expr]) -> int:
             one, other = _sign(left, name, values), _sign(right, name, values)
             if isinstance(op, ast.Mult | ast.Div):
                 gain = right if one else left
-                text = ast.unparse(values.get(ast.unparse(gain), gain))
+                text = unparse(values.get(unparse(gain), gain))
                 return (one or other) * (-1 if text.startswith("-") else 1)
             return one or (-other if isinstance(op, ast.Sub) else other)
     return next(
-        (
-            sign
-            for each in ast.iter_child_nodes(node)
-            if isinstance(each, ast.expr) and (sign := _sign(each, name, values))
-        ),
+        (sign for each in children(node) if isinstance(each, ast.expr) and (sign := _sign(each, name, values))),
         0,
     )
 
 
 def cells_for_metres(tree: ast.AST) -> Iterator[Suspect]:
     """Find a cell of a way from which a place in metres is subtracted."""
-    poses = {
-        ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith((".position.x", "p.x"))
-    }
+    poses = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith((".position.x", "p.x"))}
     cells: dict[str, str] = {}
     for target, value in assigned(tree):
         if _of_a_path(value) and isinstance(target, ast.Tuple):
-            cells |= {each.id: ast.unparse(value) for each in target.elts if isinstance(each, ast.Name)}
-    for node in walk(tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and ast.unparse(node.right) in poses:
-            name = ast.unparse(node.left)
+            cells |= {each.id: unparse(value) for each in target.elts if isinstance(each, ast.Name)}
+    for node in nodes_of(tree, ast.BinOp):
+        if isinstance(node.op, ast.Sub) and unparse(node.right) in poses:
+            name = unparse(node.left)
             if name in cells:
                 yield (
                     node.lineno,
                     "cell",
-                    f"{ast.unparse(node)} subtracts metres from {name}, which comes from {cells[name][:40]}: if these "
+                    f"{unparse(node)} subtracts metres from {name}, which comes from {cells[name][:40]}: if these "
                     "are cells, make metres of them first, corner + (cell + 0.5) * resolution",
                 )
 
 
 def _of_a_path(value: ast.expr) -> bool:
-    return isinstance(value, ast.Subscript) and bool(re.search(r"path|way|route|plan|cells", ast.unparse(value.value)))
+    return isinstance(value, ast.Subscript) and bool(re.search(r"path|way|route|plan|cells", unparse(value.value)))
 
 
 def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
     """Find the direction of a place from the origin where that from the robot is meant: no pose is subtracted."""
-    poses = {
-        ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith((".position.x", "p.x"))
-    }
-    makers = {each.name for each in functions(tree) if not any(pose in ast.unparse(each) for pose in poses)}
+    poses = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith((".position.x", "p.x"))}
+    makers = {each.name for each in functions(tree) if not any(pose in unparse(each) for pose in poses)}
     for function in functions(tree) if poses else ():
         places: dict[str, int] = {}
         for target, value in assigned(function):
             made = isinstance(value, ast.Call) and last_name(value.func) in makers and len(value.args) == 1
             for each in target.elts if isinstance(target, ast.Tuple) and (made or _of_a_path(value)) else ():
-                places[ast.unparse(each)] = value.lineno
+                places[unparse(each)] = value.lineno
         for call, name in calls(function):
-            texts = [ast.unparse(each) for each in call.args]
+            texts = [unparse(each) for each in call.args]
             if name in AIMED and len(texts) == 2 and all(text in places for text in texts):
                 yield (
                     call.lineno,
                     "cell",
-                    f"{ast.unparse(call)} is the direction of ({texts[1]}, {texts[0]}) from the origin of the map, "
+                    f"{unparse(call)} is the direction of ({texts[1]}, {texts[0]}) from the origin of the map, "
                     "not from the robot: subtract the robot's x and y first",
                 )
 
@@ -321,14 +316,14 @@ def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
 def part_of_a_scan(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that goes through a part of the rays while it draws a map."""
     for function in functions(tree):
-        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
+        for loop in nodes_of(function, ast.For):
             for node in walk(loop.iter):
                 part = isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) and node.slice.step is None
-                if isinstance(node, ast.Subscript) and part and ast.unparse(node.value).endswith(".ranges"):
+                if isinstance(node, ast.Subscript) and part and unparse(node.value).endswith(".ranges"):
                     yield (
                         node.lineno,
                         "part",
-                        f"{ast.unparse(node)[:60]} leaves out a part of the rays: what stands on that side never gets "
+                        f"{unparse(node)[:60]} leaves out a part of the rays: what stands on that side never gets "
                         "into the map",
                     )
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, set_to, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, children, nodes_of, set_to, unparse, walk
 
 INCREMENT = "angle_increment"
 OFFSETS = re.compile(r"\bangle_m(?:in|ax)\b")
@@ -18,31 +18,31 @@ RADIANS = re.compile(r"\bangle_(?:min|max|increment)\b|\batan2\b|\barctan2\b")
 
 def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
     """Find a bearing that is `i * angle_increment`, with no first angle, and the number of a ray without one."""
-    if OFFSETS.search(ast.unparse(tree)):
+    if OFFSETS.search(unparse(tree)):
         return
     steps = {INCREMENT} | {
-        ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(f".{INCREMENT}")
+        unparse(target) for target, value in assigned(tree) if unparse(value).endswith(f".{INCREMENT}")
     }
-    parent = {child: node for node in walk(tree) for child in ast.iter_child_nodes(node)}
+    parent = {child: node for node in walk(tree) for child in children(node)}
     numbers = _numbers_of_rays(tree)
     summed = {
-        ast.unparse(side)
-        for node in walk(tree)
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub | ast.Mod)
+        unparse(side)
+        for node in nodes_of(tree, ast.BinOp)
+        if isinstance(node.op, ast.Add | ast.Sub | ast.Mod)
         for side in (node.left, node.right)
-    } | {ast.unparse(node.target) for node in walk(tree) if isinstance(node, ast.AugAssign)}
+    } | {unparse(node.target) for node in nodes_of(tree, ast.AugAssign)}
     for node in walk(tree):
         if (by_hand := _degree_for_each_ray(node, numbers)) and not _shifted(node, parent, summed):
             yield (
                 by_hand,
                 "bearing",
-                f"{ast.unparse(node)[:60]} takes the number of a ray for its bearing in degrees, counted from ahead: "
+                f"{unparse(node)[:60]} takes the number of a ray for its bearing in degrees, counted from ahead: "
                 "ray 0 looks to angle_min, and ray i to angle_min + i * angle_increment",
             )
             return
         if not isinstance(node, ast.BinOp):
             continue
-        left, right = ast.unparse(node.left), ast.unparse(node.right)
+        left, right = unparse(node.left), unparse(node.right)
         counted = isinstance(node.op, ast.Mult) and (
             (left in numbers and _is_step(right, steps)) or (right in numbers and _is_step(left, steps))
         )
@@ -52,7 +52,7 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
         yield (
             node.lineno,
             "bearing",
-            f"{ast.unparse(node)[:60]} counts from ray 0 as if it looked straight ahead: it looks to angle_min, and "
+            f"{unparse(node)[:60]} counts from ray 0 as if it looked straight ahead: it looks to angle_min, and "
             "ray i to angle_min + i * angle_increment",
         )
 
@@ -60,10 +60,10 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
 def _degree_for_each_ray(node: ast.AST, numbers: set[str]) -> int:
     """Return the line of `i * pi / 180` or `radians(i)` where i counts rays; 0 for anything else."""
     match node:
-        case ast.Call(args=[ast.Name(id=name)]) if ast.unparse(node.func).rpartition(".")[2] in ("radians", "deg2rad"):
+        case ast.Call(args=[ast.Name(id=name)]) if unparse(node.func).rpartition(".")[2] in ("radians", "deg2rad"):
             return node.lineno if name in numbers else 0
         case ast.BinOp():
-            found = re.fullmatch(r"(\w+) \* \(?(?:\w+\.)?pi / 180(?:\.0)?\)?", ast.unparse(node))
+            found = re.fullmatch(r"(\w+) \* \(?(?:\w+\.)?pi / 180(?:\.0)?\)?", unparse(node))
             return node.lineno if found and found[1] in numbers else 0
     return 0
 
@@ -75,13 +75,13 @@ def _is_step(text: str, steps: set[str]) -> bool:
 def _numbers_of_rays(tree: ast.AST) -> set[str]:
     """Return the names that count rays in loops."""
     found = set()
-    for node in walk(tree):
-        if isinstance(node, ast.For | ast.comprehension) and isinstance(node.iter, ast.Call):
-            called = ast.unparse(node.iter.func)
+    for node in nodes_of(tree, ast.For, ast.comprehension):
+        if isinstance(node.iter, ast.Call):
+            called = unparse(node.iter.func)
             if called == "enumerate" and isinstance(node.target, ast.Tuple):
-                found.add(ast.unparse(node.target.elts[0]))
+                found.add(unparse(node.target.elts[0]))
             elif called in ("range", "np.arange"):
-                found.add(ast.unparse(node.target))
+                found.add(unparse(node.target))
     return found
 
 
@@ -99,13 +99,13 @@ def _shifted(node: ast.AST, parent: dict[ast.AST, ast.AST], summed: set[str]) ->
         if isinstance(above, ast.Subscript):
             return False
     if isinstance(above, ast.Assign):
-        return any(ast.unparse(target) in summed for target in above.targets)
+        return any(unparse(target) in summed for target in above.targets)
     return False
 
 
 def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
     """Find an angle of a scan, or of atan2, that is compared with a number of degrees or subtracted from one."""
-    if called(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", ast.unparse(tree)):
+    if called(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", unparse(tree)):
         return
     known, names = named_numbers(tree), _radians(tree)
     for node in walk(tree):
@@ -122,23 +122,23 @@ def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
                     "angle",
-                    f"{ast.unparse(node)[:60]}: {_shown(limit, value)} are degrees, and {ast.unparse(angle)[:40]} is "
+                    f"{unparse(node)[:60]}: {_shown(limit, value)} are degrees, and {unparse(angle)[:40]} is "
                     "in radians, as all angles of a scan are: math.radians() converts degrees",
                 )
                 return
 
 
 def _shown(node: ast.expr, value: Number) -> str:
-    text = ast.unparse(node)
+    text = unparse(node)
     return f"{value:g}" if isinstance(node, ast.Constant | ast.UnaryOp) else f"the {value:g} of {text}"
 
 
 def _is_angle(node: ast.expr, names: set[str]) -> bool:
-    if isinstance(node, ast.Call) and ast.unparse(node.func) in ("abs", "math.fabs", "np.abs") and node.args:
+    if isinstance(node, ast.Call) and unparse(node.func) in ("abs", "math.fabs", "np.abs") and node.args:
         return _is_angle(node.args[0], names)
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
         return _is_angle(node.left, names) or _is_angle(node.right, names)
-    return ast.unparse(node) in names
+    return unparse(node) in names
 
 
 def _radians(tree: ast.AST) -> set[str]:
@@ -146,7 +146,7 @@ def _radians(tree: ast.AST) -> set[str]:
     return {
         name
         for name, given in set_to(tree).items()
-        if any(RADIANS.search(ast.unparse(each)) and not _is_index(each) for each in given)
+        if any(RADIANS.search(unparse(each)) and not _is_index(each) for each in given)
     }
 
 

@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 
 BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
@@ -14,7 +14,7 @@ BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
 
 def _biases(node: ast.AST) -> set[str]:
     """Return the names in an expression that stand for a bias."""
-    parts = (ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute))
+    parts = (unparse(each) for each in nodes_of(node, ast.Name, ast.Attribute))
     return {each for each in parts if BIAS.search(each)}
 
 
@@ -34,18 +34,17 @@ def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "gyroscope",
-                f"{ast.unparse(node)[:70]} subtracts the bias, a rate [rad/s], from an angle [rad]: (rate - bias) * "
-                "time",
+                f"{unparse(node)[:70]} subtracts the bias, a rate [rad/s], from an angle [rad]: (rate - bias) * time",
             )
     for name in {name for _, name, _, _ in sums}:
         if any(_biases(whole) or _biases(value) for _, each, value, whole in sums if each == name):
             continue
         for target, value in assigned(tree):
-            if ast.unparse(target) == name and _biases(value) and "angular_velocity" not in ast.unparse(value):
+            if unparse(target) == name and _biases(value) and "angular_velocity" not in unparse(value):
                 yield (
                     value.lineno,
                     "gyroscope",
-                    f"{name} gets {ast.unparse(value)[:40]}: the bias is taken from the angle [rad], once, but it is a "
+                    f"{name} gets {unparse(value)[:40]}: the bias is taken from the angle [rad], once, but it is a "
                     "rate [rad/s], wrong in every message: add (rate - bias) * time each time",
                 )
 
@@ -54,16 +53,16 @@ def never_used(tree: ast.AST) -> Iterator[Suspect]:
     """Find a bias that is measured, and read nowhere but where it is measured."""
     if not any(True for _ in reads_rates(tree)):
         return
-    for name in sorted({ast.unparse(t) for t, _ in assigned(tree) if isinstance(t, ast.Name | ast.Attribute)}):
+    for name in sorted({unparse(t) for t, _ in assigned(tree) if isinstance(t, ast.Name | ast.Attribute)}):
         if not BIAS.search(name):
             continue
-        places = [value for target, value in assigned(tree) if ast.unparse(target) == name]
+        places = [value for target, value in assigned(tree) if unparse(target) == name]
         own = {id(each) for value in places for each in walk(value)}
         tail = name.rpartition(".")[2]
         read = any(
             isinstance(each, ast.Name | ast.Attribute)
             and isinstance(each.ctx, ast.Load)
-            and ast.unparse(each).rpartition(".")[2] == tail
+            and unparse(each).rpartition(".")[2] == tail
             and id(each) not in own
             for each in walk(tree)
         )
@@ -79,31 +78,31 @@ def never_used(tree: ast.AST) -> Iterator[Suspect]:
 def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
     """Find a running sum of the standing rates that is subtracted as the bias, and divided nowhere."""
     sums = {
-        ast.unparse(node.target): node
+        unparse(node.target): node
         for function in reads_rates(tree)
-        for node in walk(function)
-        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and _is_rate(node.value, function)
+        for node in nodes_of(function, ast.AugAssign)
+        if isinstance(node.op, ast.Add) and _is_rate(node.value, function)
     }
     divided = " ".join(
-        ast.unparse(node.left if isinstance(node, ast.BinOp) else node.target)
-        for node in walk(tree)
-        if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.Div)
+        unparse(node.left if isinstance(node, ast.BinOp) else node.target)
+        for node in nodes_of(tree, ast.BinOp, ast.AugAssign)
+        if isinstance(node.op, ast.Div)
     )
-    for node in walk(tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
-            made = sums.get(ast.unparse(node.right))
-            if made is not None and ast.unparse(node.right) not in divided:
+    for node in nodes_of(tree, ast.BinOp):
+        if isinstance(node.op, ast.Sub):
+            made = sums.get(unparse(node.right))
+            if made is not None and unparse(node.right) not in divided:
                 yield (
                     made.lineno,
                     "gyroscope",
-                    f"{ast.unparse(made)[:60]} is the sum of the rates, and it is subtracted as their mean: divide it "
+                    f"{unparse(made)[:60]} is the sum of the rates, and it is subtracted as their mean: divide it "
                     "by their number",
                 )
 
 
 def _is_rate(value: ast.expr, function: ast.FunctionDef) -> bool:
     """Say whether an expression is a turning rate alone, with no time beside it."""
-    return ast.unparse(expanded(value, assigned_once(function))).endswith("angular_velocity.z")
+    return unparse(expanded(value, assigned_once(function))).endswith("angular_velocity.z")
 
 
 LOOKS = (subtracted_as_an_angle, never_used, sums_for_means)

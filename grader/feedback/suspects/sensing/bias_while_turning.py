@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, last_name, nodes_of, unparse
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 
 Guards = frozenset[tuple[str, bool]]  # conditions under which a statement is reached, and whether they hold
@@ -24,7 +24,7 @@ def collected_in_the_turn(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         statement.lineno,
                         "gyroscope",
-                        f"{ast.unparse(statement)[:70]} is done while the robot turns, too, so the turn itself is "
+                        f"{unparse(statement)[:70]} is done while the robot turns, too, so the turn itself is "
                         "subtracted as if it were bias: collect the rates only in the first second, while it stands",
                     )
 
@@ -34,7 +34,7 @@ def _reached(body: list[ast.stmt], guards: Guards) -> Iterator[tuple[ast.stmt, G
     for statement in body:
         yield statement, guards
         if isinstance(statement, ast.If):
-            test = ast.unparse(statement.test)
+            test = unparse(statement.test)
             yield from _reached(statement.body, guards | {(test, True)})
             yield from _reached(statement.orelse, guards | {(test, False)})
             for branch, holds in ((statement.body, False), (statement.orelse, True)):
@@ -56,25 +56,25 @@ def _kept(statement: ast.stmt, values: dict[str, ast.expr]) -> set[str]:
                 return set()
         case _:
             return set()
-    return {ast.unparse(target)} if "angular_velocity" in ast.unparse(expanded(value, values)) else set()
+    return {unparse(target)} if "angular_velocity" in unparse(expanded(value, values)) else set()
 
 
 def _subtracted(whole: ast.expr, live: list[ast.stmt], values: dict[str, ast.expr]) -> set[str]:
     """Return the attributes that what is subtracted from a rate is made of, in the statements of the same call."""
     found = {
         name
-        for node in walk(whole)
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and "angular_velocity" in ast.unparse(node.left)
+        for node in nodes_of(whole, ast.BinOp)
+        if isinstance(node.op, ast.Sub) and "angular_velocity" in unparse(node.left)
         for name in _attributes(node.right)
     }
     for statement in live:
-        if isinstance(statement, ast.Assign) and {ast.unparse(each) for each in statement.targets} & found:
+        if isinstance(statement, ast.Assign) and {unparse(each) for each in statement.targets} & found:
             found |= _attributes(expanded(statement.value, values))
     return found
 
 
 def _attributes(node: ast.AST) -> set[str]:
-    return {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Attribute)}
+    return {unparse(each) for each in nodes_of(node, ast.Attribute)}
 
 
 LOOKS = (collected_in_the_turn,)

@@ -9,7 +9,7 @@ import ast
 import math
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, unparse
 from gz_course.grader.feedback.slips.geometry.rotations import SOME, pairs
 
 OFFSETS = ast.Add | ast.Sub
@@ -25,12 +25,12 @@ def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
             if name not in ("atan2", "arctan2") or len(call.args) != 2:
                 continue
             if [known.get(_bare(each)) for each in call.args] == ["x", "y"]:
-                ahead, left = (ast.unparse(each) for each in call.args)
+                ahead, left = (unparse(each) for each in call.args)
                 right = f"{name}({left}, {ahead})"
                 yield (
                     call.lineno,
                     "axes",
-                    f"{ast.unparse(call)[:60]}: {name} takes y first, what is to the left, and that is {left} here: "
+                    f"{unparse(call)[:60]}: {name} takes y first, what is to the left, and that is {left} here: "
                     f"{right}",
                 )
 
@@ -50,7 +50,7 @@ def other_turns(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 first.lineno,
                 "axes",
-                f"{ast.unparse(first)[:50]} and {ast.unparse(second)[:50]} turn the wrong way: for x, it is "
+                f"{unparse(first)[:50]} and {unparse(second)[:50]} turn the wrong way: for x, it is "
                 f"{ahead} * cos - {left} * sin, and for y {ahead} * sin + {left} * cos",
             )
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse
 
 Loop = ast.For | ast.comprehension
 
 
 def largest_range(tree: ast.Module) -> Iterator[Suspect]:
     """Find the largest of the ranges of a scan in a node that steers, where nothing takes the smallest."""
-    if "angular.z" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree):
         return
     for function in functions(tree):
         lists = set(_of_ranges(function))
-        given = [(call, name, ast.unparse(call.args[0])) for call, name in calls(function) if len(call.args) == 1]
+        given = [(call, name, unparse(call.args[0])) for call, name in calls(function) if len(call.args) == 1]
         if any(name in ("min", "nanmin", "argmin", "sorted", "sort") for _, name, _ in given):
             continue
         for call, name, text in given:
@@ -24,21 +24,21 @@ def largest_range(tree: ast.Module) -> Iterator[Suspect]:
                 yield (
                     call.lineno,
                     "farthest",
-                    f"{ast.unparse(call)[:60]} takes the farthest of the ranges: the distance from a wall is that of "
+                    f"{unparse(call)[:60]} takes the farthest of the ranges: the distance from a wall is that of "
                     "its nearest point, min(...)",
                 )
 
 
 def _of_ranges(function: ast.FunctionDef) -> Iterator[str]:
     """Yield the names of lists that are filled from the ranges of a scan."""
-    for node in walk(function):
-        if isinstance(node, ast.For) and ".ranges" in ast.unparse(node.iter):
+    for node in nodes_of(function, ast.For):
+        if ".ranges" in unparse(node.iter):
             for call, name in calls(node):
                 if name == "append":
-                    yield ast.unparse(call.func).rpartition(".")[0]
+                    yield unparse(call.func).rpartition(".")[0]
     for target, value in assigned(function):
-        if isinstance(value, ast.ListComp) and any(".ranges" in ast.unparse(loop.iter) for loop in value.generators):
-            yield ast.unparse(target)
+        if isinstance(value, ast.ListComp) and any(".ranges" in unparse(loop.iter) for loop in value.generators):
+            yield unparse(target)
 
 
 LOOKS = (largest_range,)

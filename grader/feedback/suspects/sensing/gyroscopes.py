@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.steering.headings import TO_RADIANS
 
 TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
@@ -25,8 +25,8 @@ DEPTH = 4  # steps in which a name is replaced by what it was assigned
 
 def reads_rates(tree: ast.AST) -> Iterator[ast.FunctionDef]:
     """Yield the functions that read a turning rate."""
-    for node in walk(tree):
-        if isinstance(node, ast.FunctionDef) and "angular_velocity" in ast.unparse(node):
+    for node in nodes_of(tree, ast.FunctionDef):
+        if "angular_velocity" in unparse(node):
             yield node
 
 
@@ -37,8 +37,8 @@ def _sums(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, str, ast.expr]]
         target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
         if not isinstance(node, ast.Assign | ast.AugAssign) or not isinstance(target, ast.Attribute):
             continue
-        name = ast.unparse(target)
-        text = ast.unparse(expanded(node.value, values))
+        name = unparse(target)
+        text = unparse(expanded(node.value, values))
         if "angular_velocity" in text and not re.search("bias|offset|drift|mean|rates", name):
             yield node, name, node.value
 
@@ -68,7 +68,7 @@ def expanded(value: ast.expr, values: dict[str, ast.expr], depth: int = DEPTH) -
             known = values.get(node.id) if depth else None
             return expanded(known, values, depth - 1) if known is not None else node
 
-    return Replace().visit(ast.parse(ast.unparse(value), mode="eval").body)
+    return Replace().visit(ast.parse(unparse(value), mode="eval").body)
 
 
 def _constants(tree: ast.AST) -> dict[str, float]:
@@ -76,9 +76,9 @@ def _constants(tree: ast.AST) -> dict[str, float]:
     found: dict[str, list[object]] = {}
     for target, value in assigned(tree):
         number: object = value.value if isinstance(value, ast.Constant) else None
-        if isinstance(value, ast.BinOp) and re.fullmatch(r"[\d.]+ / [\d.]+", ast.unparse(value)):
+        if isinstance(value, ast.BinOp) and re.fullmatch(r"[\d.]+ / [\d.]+", unparse(value)):
             number = 1.0  # a quotient of two numbers, such as 1 / 25
-        found.setdefault(ast.unparse(target), []).append(number)
+        found.setdefault(unparse(target), []).append(number)
     return {
         name: float(values[0])
         for name, values in found.items()
@@ -93,26 +93,24 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
         values = assigned_once(function)
         for node, name, value in _sums(function):
             whole = expanded(value, values)
-            names = {ast.unparse(each) for each in walk(whole) if isinstance(each, ast.Name | ast.Attribute)}
+            names = {unparse(each) for each in nodes_of(whole, ast.Name, ast.Attribute)}
             others = [each for each in names if each not in constants and TIMES.search(each)]
-            if others or not _adds(node, name) or f"{name} / " in ast.unparse(tree):
+            if others or not _adds(node, name) or f"{name} / " in unparse(tree):
                 continue  # a sum that is divided is on its way to be a mean
             factors = [each for each in names if each in constants and each != name and "bias" not in each]
-            numbers = [
-                each.value for each in walk(whole) if isinstance(each, ast.Constant) and each.value not in (0, 1)
-            ]
+            numbers = [each.value for each in nodes_of(whole, ast.Constant) if each.value not in (0, 1)]
             if factors or numbers:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:70]} counts every message for the same time, which is not that between "
+                    f"{unparse(node)[:70]} counts every message for the same time, which is not that between "
                     "two messages: use the difference of their stamps",
                 )
             else:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:70]} adds rates [rad/s] without a time: an angle is a rate times the time "
+                    f"{unparse(node)[:70]} adds rates [rad/s] without a time: an angle is a rate times the time "
                     "since the message before",
                 )
 
@@ -120,20 +118,18 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
 def _adds(node: ast.stmt, name: str) -> bool:
     """Say whether a statement adds to what an attribute was."""
     again = re.compile(rf"{re.escape(name)}\b")
-    return isinstance(node, ast.AugAssign) or bool(
-        isinstance(node, ast.Assign) and again.search(ast.unparse(node.value))
-    )
+    return isinstance(node, ast.AugAssign) or bool(isinstance(node, ast.Assign) and again.search(unparse(node.value)))
 
 
 def replaced(tree: ast.AST) -> Iterator[Suspect]:
     for function in reads_rates(tree):
         for node, name, value in _sums(function):
-            text = ast.unparse(value)
+            text = unparse(value)
             if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:70]} forgets what was turned before: the steps are added up, {name} += ...",
+                    f"{unparse(node)[:70]} forgets what was turned before: the steps are added up, {name} += ...",
                 )
 
 
@@ -143,18 +139,16 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
         names = {name for _, name, _ in _sums(function)}
         for node in walk(function):
             target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
-            if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or ast.unparse(target) not in names:
+            if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or unparse(target) not in names:
                 continue
             wraps = bool(called(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
             wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in walk(node.value))
-            wraps |= (
-                isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in ast.unparse(node.value)
-            )
+            wraps |= isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in unparse(node.value)
             if wraps:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:70]} makes the heading jump back, so it never reaches a full turn, 2 pi: add "
+                    f"{unparse(node)[:70]} makes the heading jump back, so it never reaches a full turn, 2 pi: add "
                     "up without a limit",
                 )
 
@@ -162,27 +156,25 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
 def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
     """Find another axis than z, and parts of stamps."""
     for function in reads_rates(tree):
-        text = ast.unparse(function)
+        text = unparse(function)
         for node in walk(function):
-            if isinstance(node, ast.Attribute) and ast.unparse(node).endswith(
-                ("angular_velocity.x", "angular_velocity.y")
-            ):
-                yield node.lineno, "gyroscope", f"{ast.unparse(node)} is tilting: turning on the spot is about z"
+            if isinstance(node, ast.Attribute) and unparse(node).endswith(("angular_velocity.x", "angular_velocity.y")):
+                yield node.lineno, "gyroscope", f"{unparse(node)} is tilting: turning on the spot is about z"
             if isinstance(node, ast.Call) and called(node) & {"degrees", "rad2deg"}:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
+                    f"{unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
                 )
         if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
-            line = next(n.lineno for n in walk(function) if isinstance(n, ast.Attribute) and n.attr == "nanosec")
+            line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "nanosec")
             yield line, "gyroscope", "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
         if re.search(r"stamp\.sec\b", text) and ".nanosec" not in text:
-            line = next(n.lineno for n in walk(function) if isinstance(n, ast.Attribute) and n.attr == "sec")
+            line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "sec")
             yield line, "gyroscope", "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
-    for node in walk(tree):
-        if isinstance(node, ast.Call) and last_name(node.func) in SUMS and _undivided(tree, node):
-            given = ast.unparse(node)
+    for node in nodes_of(tree, ast.Call):
+        if last_name(node.func) in SUMS and _undivided(tree, node):
+            given = unparse(node)
             if re.search("rate|bias|gyro|still|offset|sample", given):
                 yield node.lineno, "gyroscope", f"{given[:60]} is a sum; the bias is the mean: divide by their number"
 
@@ -191,22 +183,20 @@ def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is compared with 360 where nothing makes degrees."""
     if called(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
         return
-    for node in walk(tree):
-        if not isinstance(node, ast.Compare):
-            continue
-        numbers = [each.value for each in walk(node) if isinstance(each, ast.Constant)]
-        if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", ast.unparse(node)):
+    for node in nodes_of(tree, ast.Compare):
+        numbers = [each.value for each in nodes_of(node, ast.Constant)]
+        if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", unparse(node)):
             yield (
                 node.lineno,
                 "gyroscope",
-                f"{ast.unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
+                f"{unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
             )
 
 
 def _undivided(tree: ast.AST, call: ast.Call) -> bool:
     """Say whether a sum stands in no division, and is not given a name that might be divided later."""
-    for node in walk(tree):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) and any(e is call for e in walk(node.left)):
+    for node in nodes_of(tree, ast.BinOp):
+        if isinstance(node.op, ast.Div) and any(e is call for e in walk(node.left)):
             return False
     return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
 
@@ -216,21 +206,17 @@ def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
     for function in reads_rates(tree):
         values = assigned_once(function)
         for node, _, value in _sums(function):
-            yield from _part_of_time(node.lineno, ast.unparse(expanded(value, values)))
-    whole = ast.unparse(tree)
-    for other in walk(tree):
-        if not isinstance(other, ast.FunctionDef) or len(re.findall(rf"\b{other.name}\(", whole)) < 2:
+            yield from _part_of_time(node.lineno, unparse(expanded(value, values)))
+    whole = unparse(tree)
+    for other in nodes_of(tree, ast.FunctionDef):
+        if len(re.findall(rf"\b{other.name}\(", whole)) < 2:
             continue
-        for each in walk(other):
-            if (
-                isinstance(each, ast.Return)
-                and each.value is not None
-                and not re.search(
-                    rf"\.(?:sec|nanosec)\b.*\b{other.name}\(|\b{other.name}\(.*\.(?:sec|nanosec)\b",
-                    whole.replace(ast.unparse(other), ""),
-                )
+        for each in nodes_of(other, ast.Return):
+            if each.value is not None and not re.search(
+                rf"\.(?:sec|nanosec)\b.*\b{other.name}\(|\b{other.name}\(.*\.(?:sec|nanosec)\b",
+                whole.replace(unparse(other), ""),
             ):
-                yield from _part_of_time(each.lineno, ast.unparse(expanded(each.value, assigned_once(other))))
+                yield from _part_of_time(each.lineno, unparse(expanded(each.value, assigned_once(other))))
 
 
 def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
@@ -254,11 +240,11 @@ def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
         values = assigned_once(function)
         names = {name for _, name, _ in _sums(function)}
         for node in walk(function):
-            text = ast.unparse(node) if isinstance(node, ast.Call | ast.BinOp) else ""
+            text = unparse(node) if isinstance(node, ast.Call | ast.BinOp) else ""
             given: ast.expr | None = None
             if isinstance(node, ast.Call) and last_name(node.func) in TO_RADIANS and node.args:
                 given = node.args[0]
-            elif isinstance(node, ast.BinOp) and BY_HAND.search(text) and not BY_HAND.search(ast.unparse(node.left)):
+            elif isinstance(node, ast.BinOp) and BY_HAND.search(text) and not BY_HAND.search(unparse(node.left)):
                 given = node.left
             if given is not None and _is_rate(expanded(given, values), names):
                 yield (
@@ -271,7 +257,7 @@ def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
 
 
 def _is_rate(value: ast.expr, names: set[str]) -> bool:
-    text = ast.unparse(value)
+    text = unparse(value)
     return "angular_velocity" in text or text in names
 
 
@@ -287,7 +273,7 @@ def biases(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         getattr(part, "lineno", function.lineno),
                         "gyroscope",
-                        f"{ast.unparse(part)[:60]} {words}: the bias is their mean, what the gyroscope says on average "
+                        f"{unparse(part)[:60]} {words}: the bias is their mean, what the gyroscope says on average "
                         "while the robot stands",
                     )
 
@@ -298,29 +284,29 @@ def _made_of(tree: ast.AST, value: ast.expr, lists: set[str]) -> list[ast.expr]:
     names, known = _names(value), set(lists)
     for _ in range(DEPTH):
         known |= names
-        more = [given for target, given in assigned(tree) if ast.unparse(target) in names - lists]
+        more = [given for target, given in assigned(tree) if unparse(target) in names - lists]
         made += more
         names = {name for given in more for name in _names(given)} - known
     return made
 
 
 def _names(value: ast.expr) -> set[str]:
-    return {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Name | ast.Attribute)}
+    return {unparse(each) for each in nodes_of(value, ast.Name, ast.Attribute)}
 
 
 def _subtracted(tree: ast.AST, part: ast.AST) -> bool:
     """Say whether an expression is subtracted from something, or is called a bias."""
     return any(
         (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and node.right is part) for node in walk(tree)
-    ) or any(value is part and re.search("bias|offset|drift|zero", ast.unparse(name)) for name, value in assigned(tree))
+    ) or any(value is part and re.search("bias|offset|drift|zero", unparse(name)) for name, value in assigned(tree))
 
 
 def _no_mean(part: ast.AST, lists: set[str]) -> str:
     """Return what a part of an expression is if it is made of a list of rates and is not their mean."""
     if isinstance(part, ast.Call):
-        given = {ast.unparse(each) for each in (*part.args, part.func) if isinstance(each, ast.Name | ast.Attribute)}
+        given = {unparse(each) for each in (*part.args, part.func) if isinstance(each, ast.Name | ast.Attribute)}
         return NO_MEANS.get(last_name(part.func), "") if given & lists else ""
-    if isinstance(part, ast.Subscript) and not _sliced(part) and ast.unparse(part.value) in lists:
+    if isinstance(part, ast.Subscript) and not _sliced(part) and unparse(part.value) in lists:
         return "is a single one of the rates, with its noise"
     return ""
 
@@ -333,11 +319,11 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
     """Yield the names of the lists to which rates are appended."""
     for function in reads_rates(tree):
         values = assigned_once(function)
-        for node in walk(function):
-            if not isinstance(node, ast.Call) or last_name(node.func) not in ("append", "appendleft") or not node.args:
+        for node in nodes_of(function, ast.Call):
+            if last_name(node.func) not in ("append", "appendleft") or not node.args:
                 continue
-            if "angular_velocity" in ast.unparse(expanded(node.args[0], values)):
-                yield ast.unparse(node.func).rpartition(".")[0]
+            if "angular_velocity" in unparse(expanded(node.args[0], values)):
+                yield unparse(node.func).rpartition(".")[0]
 
 
 def signs(tree: ast.AST) -> Iterator[Suspect]:
@@ -348,29 +334,29 @@ def signs(tree: ast.AST) -> Iterator[Suspect]:
             if not _adds(node, name):
                 continue
             whole = expanded(value, values)
-            for each in walk(whole):
-                if not isinstance(each, ast.BinOp) or not isinstance(each.op, ast.Sub):
+            for each in nodes_of(whole, ast.BinOp):
+                if not isinstance(each.op, ast.Sub):
                     continue
-                left, right = ast.unparse(each.left), ast.unparse(each.right)
+                left, right = unparse(each.left), unparse(each.right)
                 if EARLIER.search(left) and not EARLIER.search(right) and "stamp" in right:
                     yield (
                         node.lineno,
                         "gyroscope",
-                        f"the time {ast.unparse(each)[:60]} is negative: it is the later stamp minus the one before",
+                        f"the time {unparse(each)[:60]} is negative: it is the later stamp minus the one before",
                     )
             sign = _sign(whole) * (-1 if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) else 1)
             if sign < 0:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:70]} takes the rate with a minus sign: a turn to the left has a positive "
+                    f"{unparse(node)[:70]} takes the rate with a minus sign: a turn to the left has a positive "
                     "rate and makes the heading larger",
                 )
 
 
 def _sign(value: ast.expr) -> int:
     """Return the sign with which an expression holds a turning rate; 0 if it holds none."""
-    if "angular_velocity" not in ast.unparse(value):
+    if "angular_velocity" not in unparse(value):
         return 0
     match value:
         case ast.UnaryOp(op=ast.USub(), operand=inner):

@@ -6,7 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import assigned_once, expanded
 from gz_course.grader.feedback.suspects.steering.headings import SINES
 
@@ -18,17 +27,17 @@ TURNS = SINES | {"exp", "rect", "Rotation", "from_euler", "rotation_matrix", "do
 
 def kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, ast.Call, str]]:
     """Yield the calls that add a place of two or more numbers to an attribute: function, call, attribute."""
-    spoken = {ast.unparse(call.args[0]) for call in _calls(tree, {"len"}) if call.args}
-    for function in (each for each in walk(tree) if isinstance(each, ast.FunctionDef)):
+    spoken = {unparse(call.args[0]) for call in _calls(tree, {"len"}) if call.args}
+    for function in nodes_of(tree, ast.FunctionDef):
         for call in _calls(function, ADDS):
-            name = ast.unparse(call.func).rpartition(".")[0]
+            name = unparse(call.func).rpartition(".")[0]
             if name in spoken and name.startswith("self.") and call.args:
                 yield function, call, name
 
 
 def _calls(tree: ast.AST, names: frozenset[str] | set[str]) -> Iterator[ast.Call]:
-    for node in walk(tree):
-        if isinstance(node, ast.Call) and last_name(node.func) in names:
+    for node in nodes_of(tree, ast.Call):
+        if last_name(node.func) in names:
             yield node
 
 
@@ -37,10 +46,10 @@ def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
     for function, call, name in kept(tree):
         if _goes_through(tree, function, name):
             continue
-        for node in walk(function):
-            if not isinstance(node, ast.Subscript) or ast.unparse(node.value) != name:
+        for node in nodes_of(function, ast.Subscript):
+            if unparse(node.value) != name:
                 continue
-            index = ast.unparse(node.slice)
+            index = unparse(node.slice)
             if index in ("-1", "0") and node.lineno <= call.lineno:
                 which = "last" if index == "-1" else "first"
                 yield (
@@ -54,12 +63,12 @@ def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
 def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     """Say whether all known places are looked at, in the function that adds one or in one that publishes nothing."""
     for each in functions(tree):
-        if each is not function and ".publish(" in ast.unparse(each):
+        if each is not function and ".publish(" in unparse(each):
             continue
-        loops = (node for node in walk(each) if isinstance(node, ast.For | ast.While | ast.comprehension))
-        if any(name in ast.unparse(loop.test if isinstance(loop, ast.While) else loop.iter) for loop in loops):
+        loops = nodes_of(each, ast.For, ast.While, ast.comprehension)
+        if any(name in unparse(loop.test if isinstance(loop, ast.While) else loop.iter) for loop in loops):
             return True
-        if any(name in ast.unparse(call) for call in _calls(each, WHOLE)):
+        if any(name in unparse(call) for call in _calls(each, WHOLE)):
             return True
     return False
 
@@ -67,8 +76,8 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
 def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is compared with the known one nearest to the robot, not with the one nearest to it."""
     for function, call, name in kept(tree):
-        loops = [node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)]
-        if any(name in ast.unparse(loop.iter) for loop in loops):
+        loops = [node for node in nodes_of(function, ast.For, ast.comprehension)]
+        if any(name in unparse(loop.iter) for loop in loops):
             continue
         for chosen in _calls(function, {"min", "sorted"}):
             keys = [each.value for each in chosen.keywords if each.arg == "key"]
@@ -76,12 +85,12 @@ def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
             own = keys and (
                 differs or not isinstance(keys[0], ast.Lambda) or called(keys[0]) - {"hypot", "norm", "sqrt"}
             )
-            of = ast.unparse(chosen.args[0]) if chosen.args else ""
+            of = unparse(chosen.args[0]) if chosen.args else ""
             if of == name and keys and not own and chosen.lineno <= call.lineno:
                 yield (
                     chosen.lineno,
                     "same",
-                    f"{ast.unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared "
+                    f"{unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared "
                     f"with that one only: compare it with all of {name}",
                 )
 
@@ -92,11 +101,9 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
     for function, call, name in kept(tree):
         compared = _goes_through(tree, function, name)
         inner = {id(node) for node in walk(function)}
-        for node in walk(tree):
-            if not isinstance(node, ast.If):
-                continue
-            tests = [each for each in walk(node.test) if isinstance(each, ast.Compare)]
-            sides = [{ast.unparse(each.left), *map(ast.unparse, each.comparators)} for each in tests]
+        for node in nodes_of(tree, ast.If):
+            tests = [each for each in nodes_of(node.test, ast.Compare)]
+            sides = [{unparse(each.left), *map(unparse, each.comparators)} for each in tests]
             if not any(
                 f"len({name})" in each and any("len(" in side for side in each - {f"len({name})"}) for each in sides
             ):
@@ -107,7 +114,7 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "same",
-                    f"{ast.unparse(node.test)[:60]} decides by how many posts are known whether one is new: a post is "
+                    f"{unparse(node.test)[:60]} decides by how many posts are known whether one is new: a post is "
                     f"new if its place is far from all places in {name}",
                 )
 
@@ -115,22 +122,22 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
 def rounded(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are the same if their rounded numbers are, or only if their numbers are equal."""
     for function, call, name in kept(tree):
-        in_set = ast.unparse(call.func).endswith(".add")
-        if not (in_set or f"in {name}" in ast.unparse(function)) or _goes_through(tree, function, name):
+        in_set = unparse(call.func).endswith(".add")
+        if not (in_set or f"in {name}" in unparse(function)) or _goes_through(tree, function, name):
             continue
         yield from _equal(call.lineno, call, expanded(call.args[0], assigned_once(function)))
-    spoken = {ast.unparse(call.args[0]) for call in _calls(tree, {"len"}) if call.args}
-    for function in (each for each in walk(tree) if isinstance(each, ast.FunctionDef)):
+    spoken = {unparse(call.args[0]) for call in _calls(tree, {"len"}) if call.args}
+    for function in nodes_of(tree, ast.FunctionDef):
         for target, _ in assigned(function):
-            name = ast.unparse(target.value) if isinstance(target, ast.Subscript) else ""
+            name = unparse(target.value) if isinstance(target, ast.Subscript) else ""
             if isinstance(target, ast.Subscript) and name in spoken and not _goes_through(tree, function, name):
                 yield from _equal(target.lineno, target, expanded(target.slice, assigned_once(function)))
 
 
 def _equal(line: int, code: ast.expr, key: ast.expr) -> Iterator[Suspect]:
     """Yield what is wrong with a place as a key."""
-    text = ast.unparse(code)[:70]
-    if called(key) & ROUNDS or "//" in ast.unparse(key):
+    text = unparse(code)[:70]
+    if called(key) & ROUNDS or "//" in unparse(key):
         yield (
             line,
             "same",
@@ -150,22 +157,22 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are new as soon as one known place is far away, instead of all."""
     for function, call, name in kept(tree):
         for node in walk(function):
-            if isinstance(node, ast.For) and name in ast.unparse(node.iter):
-                tests = [each for each in walk(node) if isinstance(each, ast.If) and _far(each.test)]
+            if isinstance(node, ast.For) and name in unparse(node.iter):
+                tests = [each for each in nodes_of(node, ast.If) if _far(each.test)]
                 if any(call in walk(each) for test in tests for each in test.body):
                     yield (
                         call.lineno,
                         "same",
-                        f"{ast.unparse(call)[:50]} is done in the loop, for each known post that is far away: a post "
+                        f"{unparse(call)[:50]} is done in the loop, for each known post that is far away: a post "
                         "is new only if all known ones are, which is known after the loop",
                     )
-            if isinstance(node, ast.Call) and last_name(node.func) == "any" and name in ast.unparse(node):
+            if isinstance(node, ast.Call) and last_name(node.func) == "any" and name in unparse(node):
                 inside = node.args[0] if node.args else None
                 if isinstance(inside, ast.GeneratorExp | ast.ListComp) and _far(inside.elt) and _guards(function, node):
                     yield (
                         node.lineno,
                         "same",
-                        f"{ast.unparse(node)[:60]} holds as soon as one known post is far away: a post is new only if "
+                        f"{unparse(node)[:60]} holds as soon as one known post is far away: a post is new only if "
                         "all are, all(...)",
                     )
 
@@ -173,20 +180,20 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
 def near_all(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are new if they are near all known ones."""
     for function, call, name in kept(tree):
-        for node in walk(function):
-            if not isinstance(node, ast.If) or call not in walk(ast.Module(node.body, [])):
+        for node in nodes_of(function, ast.If):
+            if call not in walk(ast.Module(node.body, [])):
                 continue
             test = node.test
             inside = (
                 test.args[0] if isinstance(test, ast.Call) and last_name(test.func) == "all" and test.args else None
             )
-            if not isinstance(inside, ast.GeneratorExp | ast.ListComp) or name not in ast.unparse(inside):
+            if not isinstance(inside, ast.GeneratorExp | ast.ListComp) or name not in unparse(inside):
                 continue
             if isinstance(inside.elt, ast.Compare) and _far(_turned_over(inside.elt)):
                 yield (
                     node.lineno,
                     "same",
-                    f"{ast.unparse(test)[:60]} holds for a point that is near all known posts, and a post is new if "
+                    f"{unparse(test)[:60]} holds for a point that is near all known posts, and a post is new if "
                     "it is far from all: > in place of <",
                 )
 
@@ -201,7 +208,7 @@ def _far(test: ast.expr) -> bool:
     """Say whether a test holds for what is far away: a distance greater than something."""
     if not isinstance(test, ast.Compare) or len(test.ops) != 1:
         return False
-    left, right = ast.unparse(test.left), ast.unparse(test.comparators[0])
+    left, right = unparse(test.left), unparse(test.comparators[0])
     distance = re.compile("hypot|dist|norm|sqrt")
     greater = isinstance(test.ops[0], ast.Gt | ast.GtE)
     return bool(distance.search(left if greater else right)) and isinstance(
@@ -224,7 +231,7 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
         yield (
             call.lineno,
             "unturned",
-            f"{ast.unparse(call)[:60]} keeps points as the camera sees them, and the robot turns: turn each by the "
+            f"{unparse(call)[:60]} keeps points as the camera sees them, and the robot turns: turn each by the "
             "heading at which it was seen",
         )
 

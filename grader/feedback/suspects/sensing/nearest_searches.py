@@ -7,7 +7,16 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, last_name, left_early, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    functions,
+    last_name,
+    left_early,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 LEAST, MOST = 0.3, 2.5  # [m] ranges below and beyond which a node may leave out
 WIDE_ENDS, WIDE = 2, 0.7  # limits of a sector, and how far apart they are at least [rad]
@@ -15,7 +24,7 @@ PARAMETER = re.compile(r"get_parameter\(['\"]distance['\"]\)\.value$")
 
 
 def _steers(tree: ast.Module) -> bool:
-    text = ast.unparse(tree)
+    text = unparse(tree)
     return "angular.z" in text and ".ranges" in text
 
 
@@ -26,7 +35,7 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
     stores: dict[str, list[tuple[str, ast.expr, ast.expr]]] = {}
     for function in functions(tree):
         for target, value in assigned(function):
-            stores.setdefault(ast.unparse(target), []).append((function.name, target, value))
+            stores.setdefault(unparse(target), []).append((function.name, target, value))
     for function in functions(tree):
         for name, node in _smallest_so_far(function):
             others = [each for each in stores.get(name, []) if each[2] not in list(walk(node))]
@@ -43,24 +52,24 @@ def list_of_all_scans(tree: ast.Module) -> Iterator[Suspect]:
     """Find a list of ranges that is an attribute, grows in each scan, and is never emptied."""
     if not _steers(tree):
         return
-    made = [(function.name, ast.unparse(target), value) for function in functions(tree)
+    made = [(function.name, unparse(target), value) for function in functions(tree)
             for target, value in assigned(function)]  # fmt: skip
-    text = ast.unparse(tree)
-    for name in {name for where, name, value in made if where == "__init__" and ast.unparse(value) in ("[]", "list()")}:
+    text = unparse(tree)
+    for name in {name for where, name, value in made if where == "__init__" and unparse(value) in ("[]", "list()")}:
         others = [where for where, other, _ in made if other == name and where != "__init__"]
         shortened = any(f"{name}.{each}" in text for each in ("clear", "pop", "remove")) or f"del {name}" in text
         if others or shortened or not name.startswith("self."):
             continue
-        names = {name, *(other for _, other, value in made if ast.unparse(value) == name)}
+        names = {name, *(other for _, other, value in made if unparse(value) == name)}
         for function in functions(tree):
-            for loop in (node for node in walk(function) if isinstance(node, ast.For) and _range_of(node)):
-                for call in (node for node in walk(loop) if isinstance(node, ast.Call)):
-                    grown, _, what = ast.unparse(call.func).rpartition(".")
+            for loop in (node for node in nodes_of(function, ast.For) if _range_of(node)):
+                for call in nodes_of(loop, ast.Call):
+                    grown, _, what = unparse(call.func).rpartition(".")
                     if what == "append" and grown in names and function.name != "__init__":
                         yield (
                             call.lineno,
                             "nearest range",
-                            f"{ast.unparse(call)[:60]} adds to {name}, which still holds the rays of all scans before: "
+                            f"{unparse(call)[:60]} adds to {name}, which still holds the rays of all scans before: "
                             "nothing empties it, so begin each scan with an empty list",
                         )
                         return
@@ -71,16 +80,16 @@ def _smallest_so_far(function: ast.FunctionDef) -> Iterator[tuple[str, ast.stmt]
     for node in walk(function):
         match node:
             case ast.If(test=ast.Compare(left=left, ops=[ast.Lt() | ast.LtE()], comparators=[right])):
-                value, name = ast.unparse(left), ast.unparse(right)
+                value, name = unparse(left), unparse(right)
             case ast.If(test=ast.Compare(left=left, ops=[ast.Gt() | ast.GtE()], comparators=[right])):
-                value, name = ast.unparse(right), ast.unparse(left)
+                value, name = unparse(right), unparse(left)
             case ast.Assign(targets=[target], value=ast.Call(func=ast.Name(id="min"), args=[_, _] as args)):
-                if ast.unparse(target) in [ast.unparse(each) for each in args]:
-                    yield ast.unparse(target), node
+                if unparse(target) in [unparse(each) for each in args]:
+                    yield unparse(target), node
                 continue
             case _:
                 continue
-        if any((ast.unparse(target), ast.unparse(given)) == (name, value) for target, given in assigned(node)):
+        if any((unparse(target), unparse(given)) == (name, value) for target, given in assigned(node)):
             yield name, node
 
 
@@ -107,12 +116,12 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
         return
     known = named_numbers(tree)
     for function in functions(tree):
-        for loop in (node for node in walk(function) if isinstance(node, ast.For)):
+        for loop in nodes_of(function, ast.For):
             kept = _range_of(loop)
             if not kept or left_early(loop):
                 continue
             for target, value in assigned(loop):
-                if not isinstance(target, ast.Name) or ast.unparse(value) not in kept:
+                if not isinstance(target, ast.Name) or unparse(value) not in kept:
                     continue
                 if not all(_is_wide(test, known) for test in _conditions(loop, target)):
                     continue  # one ray is chosen
@@ -127,14 +136,14 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
                     yield (
                         target.lineno,
                         "nearest range",
-                        f"{name} = {ast.unparse(value)} is done for each ray that is valid, so after the loop it is "
-                        f"the last of them, not the nearest: do it only if {ast.unparse(value)} < {name}",
+                        f"{name} = {unparse(value)} is done for each ray that is valid, so after the loop it is "
+                        f"the last of them, not the nearest: do it only if {unparse(value)} < {name}",
                     )
 
 
 def _conditions(loop: ast.For, target: ast.expr) -> Iterator[ast.expr]:
-    for node in walk(loop):
-        if isinstance(node, ast.If) and any(each is target for each in walk(node)):
+    for node in nodes_of(loop, ast.If):
+        if any(each is target for each in walk(node)):
             yield node.test
 
 
@@ -163,10 +172,10 @@ def _range_of(loop: ast.For) -> set[str]:
         case ast.Attribute(attr="ranges"), ast.Name(id=name):
             return {name}
         case ast.Call(func=ast.Name(id="enumerate"), args=[given]), ast.Tuple(elts=[_, ast.Name(id=name)]):
-            return {name} if ast.unparse(given).endswith("ranges") else set()
-        case ast.Call(func=ast.Name(id="range"), args=[given]), ast.Name(id=name) if "ranges" in ast.unparse(given):
+            return {name} if unparse(given).endswith("ranges") else set()
+        case ast.Call(func=ast.Name(id="range"), args=[given]), ast.Name(id=name) if "ranges" in unparse(given):
             texts = {f"{scan}ranges[{name}]" for scan in ("scan.", "msg.", "message.", "self.scan.", "data.", "")}
-            own = {ast.unparse(target) for target, value in assigned(loop) if ast.unparse(value) in texts}
+            own = {unparse(target) for target, value in assigned(loop) if unparse(value) in texts}
             return texts | own
     return set()
 
@@ -176,14 +185,14 @@ def left_out(tree: ast.Module) -> Iterator[Suspect]:
     if not _steers(tree):
         return
     known = named_numbers(tree)
-    parameters = {ast.unparse(name) for name, value in assigned(tree) if PARAMETER.search(ast.unparse(value))}
+    parameters = {unparse(name) for name, value in assigned(tree) if PARAMETER.search(unparse(value))}
     for function in functions(tree):
-        names = set().union(*(_range_of(loop) for loop in walk(function) if isinstance(loop, ast.For)))
+        names = set().union(*(_range_of(loop) for loop in nodes_of(function, ast.For)))
         names |= _compared_arrays(function)
         for value, more, limit in _choices(function):
-            if ast.unparse(value) not in names:
+            if unparse(value) not in names:
                 continue
-            metres, text = number(limit, known), ast.unparse(limit)
+            metres, text = number(limit, known), unparse(limit)
             wanted = text == "self.distance" or text in parameters
             near = more and (wanted if metres is None else LEAST < metres < MOST)
             if near or (not more and metres is not None and LEAST < metres < MOST):
@@ -200,12 +209,11 @@ def _compared_arrays(function: ast.FunctionDef) -> set[str]:
     """Return the names of arrays of all ranges, and of the range in a comprehension."""
     found = set()
     for target, value in assigned(function):
-        text = ast.unparse(value)
+        text = unparse(value)
         if isinstance(value, ast.Call) and last_name(value.func) in ("array", "asarray") and ".ranges" in text:
-            found.add(ast.unparse(target))
-    for node in walk(function):
-        if isinstance(node, ast.comprehension):
-            found |= _range_of(ast.For(target=node.target, iter=node.iter, body=[], orelse=[]))
+            found.add(unparse(target))
+    for node in nodes_of(function, ast.comprehension):
+        found |= _range_of(ast.For(target=node.target, iter=node.iter, body=[], orelse=[]))
     return found
 
 

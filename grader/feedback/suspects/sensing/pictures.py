@@ -10,7 +10,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, last_name, nodes_of, unparse, walk
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
@@ -23,51 +23,49 @@ RIGHT = "the shape of a picture is (height, width, channels)"
 
 def _arrays(tree: ast.AST) -> set[str]:
     """Return the names of pictures: what is assigned an array made of a message."""
-    return {ast.unparse(target) for target, value in assigned(tree) if called(value) & {"imgmsg_to_cv2", "reshape"}}
+    return {unparse(target) for target, value in assigned(tree) if called(value) & {"imgmsg_to_cv2", "reshape"}}
 
 
 def shapes(tree: ast.AST) -> Iterator[Suspect]:
     """Find a shape whose first number is taken for the width."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Assign):
-            continue
+    for node in nodes_of(tree, ast.Assign):
         for target in node.targets:
             value = node.value
             if isinstance(value, ast.Subscript) and isinstance(value.slice, ast.Slice) and not value.slice.step:
                 value = value.value  # shape[:2]
             if isinstance(target, ast.Tuple) and len(target.elts) >= 2 and _is_shape(value):
-                first, second = (ast.unparse(each).lower() for each in target.elts[:2])
+                first, second = (unparse(each).lower() for each in target.elts[:2])
                 if ACROSS.search(first) and DOWN.search(second):
                     yield (
                         node.lineno,
                         "picture",
-                        f"{ast.unparse(node)[:70]} takes the height for the width: {RIGHT}",
+                        f"{unparse(node)[:70]} takes the height for the width: {RIGHT}",
                     )
     for target, value in assigned(tree):
         if isinstance(value, ast.Subscript) and _is_shape(value.value):
-            name, index = ast.unparse(target).lower(), ast.unparse(value.slice)
+            name, index = unparse(target).lower(), unparse(value.slice)
             if (index == "0" and ACROSS.search(name)) or (index == "1" and DOWN.search(name)):
-                yield value.lineno, "picture", f"{name} is {ast.unparse(value)}, but {RIGHT}"
+                yield value.lineno, "picture", f"{name} is {unparse(value)}, but {RIGHT}"
 
 
 def _is_shape(value: ast.expr) -> bool:
     return (
         isinstance(value, ast.Attribute)
         and value.attr == "shape"
-        and not re.search(r"\.T\b|transpose|swapaxes", ast.unparse(value))
+        and not re.search(r"\.T\b|transpose|swapaxes", unparse(value))
     )
 
 
 def indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find a picture that is asked for [column, row]."""
     arrays = _arrays(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.Subscript) or ast.unparse(node.value) not in arrays:
+    for node in nodes_of(tree, ast.Subscript):
+        if unparse(node.value) not in arrays:
             continue
         if isinstance(node.slice, ast.Tuple) and len(node.slice.elts) >= 2:
-            first, second = (ast.unparse(each).lower() for each in node.slice.elts[:2])
+            first, second = (unparse(each).lower() for each in node.slice.elts[:2])
             if COLUMN.search(first) and ROW.search(second):
-                yield node.lineno, "picture", f"{ast.unparse(node)[:60]}: the row comes first, picture[row, column]"
+                yield node.lineno, "picture", f"{unparse(node)[:60]}: the row comes first, picture[row, column]"
 
 
 def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
@@ -78,13 +76,13 @@ def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
                 pass
             case _:
                 continue
-        if last_name(call.func) not in ("nonzero", "where") or ".T" in ast.unparse(mask):
+        if last_name(call.func) not in ("nonzero", "where") or ".T" in unparse(mask):
             continue
-        if COLUMNS.search(ast.unparse(first).lower()) and ROWS.search(ast.unparse(second).lower()):
+        if COLUMNS.search(unparse(first).lower()) and ROWS.search(unparse(second).lower()):
             yield (
                 node.lineno,
                 "picture",
-                f"{ast.unparse(node)[:70]} takes the rows for the columns: an array is [row, column], so "
+                f"{unparse(node)[:70]} takes the rows for the columns: an array is [row, column], so "
                 f"{last_name(call.func)}() returns the rows first",
             )
 
@@ -92,7 +90,7 @@ def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
 def middles(tree: ast.AST) -> Iterator[Suspect]:
     """Find the middle of the columns that is made of the rows, or of the wrong numbers of camera_info."""
     for target, value in assigned(tree):
-        name, text = ast.unparse(target), ast.unparse(value)
+        name, text = unparse(target), unparse(value)
         if not re.search(r"middle|centre|center|\bcx\b|_cx\b", name):
             continue
         if re.search(r"\bheight\b.* / 2|\.shape\[0\].* / 2", text) and "width" not in text:
@@ -114,11 +112,11 @@ def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
         if name not in ("mean", "average") or not isinstance(given, ast.Subscript):
             continue
         parts = given.slice.elts if isinstance(given.slice, ast.Tuple) else [given.slice]
-        if ast.unparse(given.value) in arrays and any(isinstance(each, ast.Slice) for each in parts):
+        if unparse(given.value) in arrays and any(isinstance(each, ast.Slice) for each in parts):
             yield (
                 call.lineno,
                 "depth",
-                f"{ast.unparse(call)[:70]} is inf as soon as one of these pixels is inf, where nothing is near enough: "
+                f"{unparse(call)[:70]} is inf as soon as one of these pixels is inf, where nothing is near enough: "
                 "take the red pixels only, and leave out what is not finite",
             )
 
@@ -129,14 +127,14 @@ def cropped(tree: ast.AST) -> Iterator[Suspect]:
         if not isinstance(value, ast.Subscript) or not isinstance(value.slice, ast.Tuple) or len(value.slice.elts) < 2:
             continue
         across = value.slice.elts[1]
-        first = ast.unparse(across.lower) if isinstance(across, ast.Slice) and across.lower is not None else ""
+        first = unparse(across.lower) if isinstance(across, ast.Slice) and across.lower is not None else ""
         again = re.compile(rf"(?<![\w.])(?:\+ {re.escape(first)}|{re.escape(first)} \+)(?![\w.])")
-        of_picture = "imgmsg_to_cv2" in called(value) or ast.unparse(value.value) in _arrays(tree)
-        if first.isdigit() and int(first) and of_picture and not again.search(ast.unparse(tree)):
+        of_picture = "imgmsg_to_cv2" in called(value) or unparse(value.value) in _arrays(tree)
+        if first.isdigit() and int(first) and of_picture and not again.search(unparse(tree)):
             yield (
                 value.lineno,
                 "picture",
-                f"{ast.unparse(target)} begins at column {first} of the picture, so its column 0 is column {first}: "
+                f"{unparse(target)} begins at column {first} of the picture, so its column 0 is column {first}: "
                 f"add {first} to each column before cx is subtracted",
             )
 
@@ -144,30 +142,30 @@ def cropped(tree: ast.AST) -> Iterator[Suspect]:
 def overflows(tree: ast.AST) -> Iterator[Suspect]:
     """Find the channel of a picture of 8 bits that is multiplied, added or subtracted as it is."""
     pictures = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
         if "imgmsg_to_cv2" in called(value) and not called(value) & {"astype", "int32", "float32", "array", "asarray"}
-        and not re.search(r"32FC1|16UC1|depth", ast.unparse(value))
+        and not re.search(r"32FC1|16UC1|depth", unparse(value))
     }  # fmt: skip
-    channels = {ast.unparse(target) for target, value in assigned(tree) if _is_channel(value, pictures)}
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult | ast.Add | ast.Sub):
+    channels = {unparse(target) for target, value in assigned(tree) if _is_channel(value, pictures)}
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Mult | ast.Add | ast.Sub):
             continue
         for side, other in ((node.left, node.right), (node.right, node.left)):
             whole = isinstance(other, ast.Constant) and type(other.value) is int
-            both = ast.unparse(other) in channels or _is_channel(other, pictures)
-            if (ast.unparse(side) in channels or _is_channel(side, pictures)) and (whole or both):
+            both = unparse(other) in channels or _is_channel(other, pictures)
+            if (unparse(side) in channels or _is_channel(side, pictures)) and (whole or both):
                 yield (
                     node.lineno,
                     "overflow",
-                    f"{ast.unparse(node)[:60]} overflows, because a picture has numbers of 8 bits (2 * 200 is 144): "
+                    f"{unparse(node)[:60]} overflows, because a picture has numbers of 8 bits (2 * 200 is 144): "
                     "convert it first, .astype(int)",
                 )
                 return
 
 
 def _is_channel(value: ast.expr, pictures: set[str]) -> bool:
-    return isinstance(value, ast.Subscript) and ast.unparse(value.value) in pictures
+    return isinstance(value, ast.Subscript) and unparse(value.value) in pictures
 
 
 LOOKS = (shapes, indices, unpacked_indices, middles, means_of_depths, cropped, overflows)

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, nodes_of, unparse, walk
 
 RAYS = 720.0
 OTHER = {"left": "right", "right": "left"}
@@ -14,12 +14,12 @@ OTHER = {"left": "right", "right": "left"}
 
 def other_side(tree: ast.Module) -> Iterator[Suspect]:
     """Find a part for one side that looks to the other, in a scan that begins behind the robot."""
-    if ".ranges" not in ast.unparse(tree):
+    if ".ranges" not in unparse(tree):
         return
     known = dict(named_numbers(tree))
     for target, value in assigned(tree):
-        if isinstance(value, ast.Call) and ast.unparse(value.func) == "len" and value.args:
-            known[ast.unparse(target)] = RAYS
+        if isinstance(value, ast.Call) and unparse(value.func) == "len" and value.args:
+            known[unparse(target)] = RAYS
     for side, block in _sides(tree):
         for node in (each for statement in block for each in walk(statement)):
             if not isinstance(node, ast.Subscript) or not isinstance(node.slice, ast.Slice) or node.slice.step:
@@ -32,7 +32,7 @@ def other_side(tree: ast.Module) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     f"part {side}",
-                    f"{ast.unparse(node)[:60]} is taken for the {side}, and looks to the {OTHER[side]}, from "
+                    f"{unparse(node)[:60]} is taken for the {side}, and looks to the {OTHER[side]}, from "
                     f"{start:.0f} to {end:.0f} degrees: angle_min is -pi, so ray 0 looks behind, the ray at a quarter "
                     "to the right, at a half ahead and at three quarters to the left",
                 )
@@ -40,8 +40,8 @@ def other_side(tree: ast.Module) -> Iterator[Suspect]:
 
 def _sides(tree: ast.AST) -> Iterator[tuple[str, list[ast.stmt]]]:
     """Yield the side of each branch that is taken on one side only, and its statements."""
-    for node in walk(tree):
-        if not isinstance(node, ast.If) or not node.orelse:
+    for node in nodes_of(tree, ast.If):
+        if not node.orelse:
             continue
         match node.test:
             case ast.Compare(ops=[ast.Eq()], comparators=[ast.Constant(value="left" | "right" as side)]):
@@ -56,8 +56,8 @@ def _share(node: ast.expr | None, known: dict[str, float], absent: float) -> flo
     """Return the place of a ray as a share of all rays; None if it is not one."""
     if node is None:
         return absent
-    if "len(" in ast.unparse(node):
-        node = _Lengths().visit(ast.parse(ast.unparse(node), mode="eval")).body
+    if "len(" in unparse(node):
+        node = _Lengths().visit(ast.parse(unparse(node), mode="eval")).body
     elif not any(isinstance(each, ast.Name) and known.get(each.id) == RAYS for each in walk(node)):
         return None
     value = number(node, known)
@@ -68,7 +68,7 @@ class _Lengths(ast.NodeTransformer):
     """Puts a number in the place of each len(...)."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
-        return ast.Constant(value=RAYS) if ast.unparse(node.func) == "len" else node
+        return ast.Constant(value=RAYS) if unparse(node.func) == "len" else node
 
 
 LOOKS = (other_side,)

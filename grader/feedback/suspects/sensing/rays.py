@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, last_name, nodes_of, unparse, walk
 
 COPIES = frozenset({"list", "tuple", "array", "asarray"})
 
@@ -13,21 +13,19 @@ COPIES = frozenset({"list", "tuple", "array", "asarray"})
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a ray, or a slice of rays, that is chosen by a number in the program."""
     names = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
-        if isinstance(target, ast.Name) and ast.unparse(_copied(value)).endswith(".ranges")
+        if isinstance(target, ast.Name) and unparse(_copied(value)).endswith(".ranges")
     }
-    for node in walk(tree):
-        if not isinstance(node, ast.Subscript):
-            continue
-        whole = ast.unparse(node.value)
+    for node in nodes_of(tree, ast.Subscript):
+        whole = unparse(node.value)
         if not whole.endswith("ranges") and whole not in names:
             continue
         if _numbered(node.slice):
             yield (
                 node.lineno,
                 "ray",
-                f"{ast.unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
+                f"{unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
                 "[rad], and 0 is ahead only if angle_min is 0",
             )
 
@@ -49,15 +47,15 @@ def _numbered(index: ast.expr) -> bool:
 
 
 def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
-    whole = {ast.unparse(target) for target, value in assigned(tree) if ast.unparse(value).endswith(".ranges")}
-    for node in walk(tree):
-        if isinstance(node, ast.Call) and last_name(node.func) == "min" and len(node.args) == 1:
-            text = ast.unparse(node.args[0])
+    whole = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith(".ranges")}
+    for node in nodes_of(tree, ast.Call):
+        if last_name(node.func) == "min" and len(node.args) == 1:
+            text = unparse(node.args[0])
             if (text.endswith(".ranges") or text in whole) and not node.keywords:
                 yield (
                     node.lineno,
                     "ray",
-                    f"{ast.unparse(node)[:60]} is the nearest in any direction, and includes ranges that are "
+                    f"{unparse(node)[:60]} is the nearest in any direction, and includes ranges that are "
                     "not valid: choose the rays by their bearing, and those between range_min and range_max",
                 )
 

@@ -7,7 +7,17 @@ import re
 from collections.abc import Iterator, Sequence
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.suspects.sensing.known_places import kept
 
 ONE_NUMBER = re.compile(r"lambda (\w+): (?:abs\()?\1\[[01]\]\)?|(?:operator\.)?itemgetter\([01]\)")
@@ -35,14 +45,14 @@ def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
         if isinstance(node, ast.Call):
             inside = node.func.value if isinstance(node.func, ast.Attribute) and not node.args else None
             inside = node.args[0] if node.args and inside is None else inside
-            arrays = isinstance(inside, ast.Compare) and "np." in ast.unparse(node)
+            arrays = isinstance(inside, ast.Compare) and "np." in unparse(node)
             far |= arrays and last_name(node.func) == "all" and _off(inside, far=True)
             near |= arrays and last_name(node.func) == "any" and _off(inside, far=False)
         if far or near:
             yield (
                 node.lineno,  # type: ignore[attr-defined]
                 "same",
-                f"{ast.unparse(node)[:80]}: so two posts are the same as soon as their x or their y is about the same; "
+                f"{unparse(node)[:80]}: so two posts are the same as soon as their x or their y is about the same; "
                 "compare the distance between them, hypot(x - a, y - b)",
             )
 
@@ -59,14 +69,14 @@ def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         call.lineno,
                         "same",
-                        f"{ast.unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
+                        f"{unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
                         "posts at other places are taken for one: compare the distance, hypot(x - a, y - b)",
                     )
 
 
 def _off(node: ast.AST | None, far: bool) -> bool:
     """Say whether a comparison holds for a difference without its sign that is large (`far`), or small."""
-    if not isinstance(node, ast.Compare) or len(node.ops) != 1 or DISTANCE.search(ast.unparse(node)):
+    if not isinstance(node, ast.Compare) or len(node.ops) != 1 or DISTANCE.search(unparse(node)):
         return False
     first, second = node.left, node.comparators[0]
     size = (bool(called(first) & {"abs", "fabs"}), bool(called(second) & {"abs", "fabs"}))
@@ -82,17 +92,17 @@ def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
     for node in walk(tree):
         loops: list[Loop] = [node] if isinstance(node, ast.For) else [*getattr(node, "generators", [])]
         for loop in loops:
-            if ast.unparse(loop.iter) not in names:
+            if unparse(loop.iter) not in names:
                 continue
-            used = {ast.unparse(each) for each in _read(node, loop) if isinstance(each, ast.Name | ast.Subscript)}
+            used = {unparse(each) for each in _read(node, loop) if isinstance(each, ast.Name | ast.Subscript)}
             both = _coordinates(loop.target)
             alone = [each for each in both if each in used]
             compared = [each for each in _read(node, loop) if isinstance(each, ast.Compare)]
-            if len(alone) == 1 and ast.unparse(loop.target) not in used and compared:
+            if len(alone) == 1 and unparse(loop.target) not in used and compared:
                 yield (
                     compared[0].lineno,
                     "same",
-                    f"{ast.unparse(compared[0])[:60]} compares one coordinate only, and two posts may have the same: "
+                    f"{unparse(compared[0])[:60]} compares one coordinate only, and two posts may have the same: "
                     "compare the distance between them, hypot(x - a, y - b)",
                 )
 
@@ -100,7 +110,7 @@ def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
 def _read(node: ast.AST, loop: Loop) -> Iterator[ast.AST]:
     """Yield all that is done with what a loop goes through."""
     made = getattr(node, "elt", None)
-    if made is not None and ast.unparse(made) == ast.unparse(loop.target):
+    if made is not None and unparse(made) == unparse(loop.target):
         made = None  # the list holds what is left of the known ones
     parts = node.body if isinstance(node, ast.For) else [made, *getattr(loop, "ifs", [])]
     for part in parts:
@@ -122,7 +132,7 @@ def _indexed(parts: Sequence[ast.AST | None], name: ast.Name) -> bool:
 
 def _coordinates(target: ast.expr) -> list[str]:
     if isinstance(target, ast.Tuple) and len(target.elts) == 2:
-        return [ast.unparse(each) for each in target.elts]
+        return [unparse(each) for each in target.elts]
     return [f"{target.id}[0]", f"{target.id}[1]"] if isinstance(target, ast.Name) else []
 
 
@@ -135,12 +145,12 @@ def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         if function.name not in adding:
             continue
-        for node in walk(function):
-            if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+        for node in nodes_of(function, ast.Compare):
+            if len(node.ops) != 1:
                 continue
             for side, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
                 limit = number(other, known)
-                if limit is None or limit <= 0 or not DISTANCE.search(ast.unparse(side)):
+                if limit is None or limit <= 0 or not DISTANCE.search(unparse(side)):
                     continue
                 if limit >= FARTHEST or limit <= NEAREST:
                     what = "takes all posts nearer than that to each other for one"
@@ -149,7 +159,7 @@ def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
                     yield (
                         node.lineno,
                         "same",
-                        f"{ast.unparse(node)[:60]} with {limit:g} m {what}: distances are in metres, and the posts "
+                        f"{unparse(node)[:60]} with {limit:g} m {what}: distances are in metres, and the posts "
                         "are thin",
                     )
 
@@ -157,7 +167,7 @@ def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
 def emptied(tree: ast.AST) -> Iterator[Suspect]:
     """Find a list whose length is published, and that is emptied in the run."""
     spoken = {
-        ast.unparse(call.args[0])
+        unparse(call.args[0])
         for each, name in calls(tree)
         if name == "publish"
         for call, inner in calls(each)
@@ -167,11 +177,11 @@ def emptied(tree: ast.AST) -> Iterator[Suspect]:
         if function.name == "__init__":
             continue
         for target, value in assigned(function):
-            if ast.unparse(target) in spoken and isinstance(value, ast.List) and not value.elts:
+            if unparse(target) in spoken and isinstance(value, ast.List) and not value.elts:
                 yield (
                     value.lineno,
                     "same",
-                    f"{ast.unparse(target)} is emptied here again and again, and its length is published: count the "
+                    f"{unparse(target)} is emptied here again and again, and its length is published: count the "
                     "posts of the whole turn",
                 )
 
@@ -182,8 +192,8 @@ def one_measure(tree: ast.AST) -> Iterator[Suspect]:
         measures = {name: _measures(function, tree, name) for name in ("distance", "direction")}
         found = [
             (node, name)
-            for node in walk(function)
-            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
+            for node in nodes_of(function, ast.BinOp)
+            if isinstance(node.op, ast.Sub)
             for name, known in measures.items()
             if _is_measure(node.left, known, name) and _is_measure(node.right, known, name)
         ]
@@ -195,26 +205,26 @@ def one_measure(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "same",
-                f"{ast.unparse(node)[:60]} compares only the {name} of two posts as the robot sees them, so posts "
+                f"{unparse(node)[:60]} compares only the {name} of two posts as the robot sees them, so posts "
                 f"{other} with about the same {name} are taken for one: compare their places, hypot(x - a, y - b)",
             )
 
 
 def _measures(function: ast.FunctionDef, tree: ast.AST, name: str) -> set[str]:
     """Return the names in a function that hold a distance, or a direction, of a place."""
-    found = {ast.unparse(target) for target, value in assigned(function) if _is_measure(value, set(), name)}
+    found = {unparse(target) for target, value in assigned(function) if _is_measure(value, set(), name)}
     rows = {
         listed: call.args[0] for _, call, listed in kept(tree) if call.args and _is_measure(call.args[0], found, name)
     }
-    for node in walk(function):
-        if isinstance(node, ast.For | ast.comprehension) and ast.unparse(node.iter) in rows:
-            found.add(ast.unparse(node.target))
+    for node in nodes_of(function, ast.For, ast.comprehension):
+        if unparse(node.iter) in rows:
+            found.add(unparse(node.target))
     return found
 
 
 def _is_measure(node: ast.expr, names: set[str], name: str) -> bool:
     """Say whether an expression is a distance, or a direction, of one place from the robot."""
-    if ast.unparse(node) in names:
+    if unparse(node) in names:
         return True
     if not isinstance(node, ast.Call) or last_name(node.func) not in MEASURES[name]:
         return False
@@ -231,22 +241,20 @@ def _all_compared(function: ast.FunctionDef) -> int:
 
 def of_one_picture(tree: ast.AST) -> Iterator[Suspect]:
     """Find a number that is published, and that is how long a list is which each picture makes anew."""
-    spoken = {ast.unparse(each.value) for each in walk(tree) if isinstance(each, ast.keyword) and each.arg == "data"}
-    spoken |= {ast.unparse(value) for target, value in assigned(tree) if ast.unparse(target).endswith(".data")}
+    spoken = {unparse(each.value) for each in nodes_of(tree, ast.keyword) if each.arg == "data"}
+    spoken |= {unparse(value) for target, value in assigned(tree) if unparse(target).endswith(".data")}
     for function in functions(tree):
         if function.name == "__init__":
             continue
-        made = {
-            ast.unparse(target) for target, value in assigned(function) if isinstance(value, ast.List | ast.ListComp)
-        }
+        made = {unparse(target) for target, value in assigned(function) if isinstance(value, ast.List | ast.ListComp)}
         for target, value in assigned(function):
             of = [call for call, name in calls(value) if name == "len" and call.args]
-            name = ast.unparse(target)
-            if name in spoken and name.startswith("self.") and of and ast.unparse(of[0].args[0]) in made:
+            name = unparse(target)
+            if name in spoken and name.startswith("self.") and of and unparse(of[0].args[0]) in made:
                 yield (
                     value.lineno,
                     "one picture",
-                    f"{name} = {ast.unparse(value)[:50]} counts {ast.unparse(of[0].args[0])}, which begins empty in "
+                    f"{name} = {unparse(value)[:50]} counts {unparse(of[0].args[0])}, which begins empty in "
                     "each picture: count the posts of the whole turn",
                 )
 
@@ -255,17 +263,16 @@ def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
     """Find the smallest of known places by their first number, in place of their distance."""
     names = {name for _, _, name in kept(tree)}
     for call, name in calls(tree):
-        if name not in ("min", "sorted") or not call.args or ast.unparse(call.args[0]) not in names:
+        if name not in ("min", "sorted") or not call.args or unparse(call.args[0]) not in names:
             continue
         key = next((each.value for each in call.keywords if each.arg == "key"), None)
-        by = None if key is None else ONE_NUMBER.fullmatch(ast.unparse(key))
+        by = None if key is None else ONE_NUMBER.fullmatch(unparse(key))
         if key is None or by:
             which = "second numbers, y," if by and "1" in by[0][-3:] else "first numbers, x,"
             yield (
                 call.lineno,
                 "nearest",
-                f"{ast.unparse(call)[:60]} compares the {which} and not distances: give it key=lambda post: "
-                "hypot(*post)",
+                f"{unparse(call)[:60]} compares the {which} and not distances: give it key=lambda post: hypot(*post)",
             )
 
 

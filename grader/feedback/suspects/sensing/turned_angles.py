@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import reads_rates
 
 
@@ -18,7 +18,7 @@ def orientations(tree: ast.AST) -> Iterator[Suspect]:
         if name == "create_subscription" and len(call.args) > 2 and last_name(call.args[0]) == "Imu"
     }
     for function in (each for each in functions(tree) if each.name in heard and not any(reads_rates(tree))):
-        found = [node for node in walk(function) if isinstance(node, ast.Attribute) and node.attr == "orientation"]
+        found = [node for node in nodes_of(function, ast.Attribute) if node.attr == "orientation"]
         for node in found[:1]:
             said = "the angle of an orientation jumps from pi to -pi and never comes to 2 pi: add up angular_velocity.z"
             yield node.lineno, "gyroscope", f"{said} * time"
@@ -29,19 +29,19 @@ def set_back(tree: ast.AST) -> Iterator[Suspect]:
     for function in reads_rates(tree):
         blocks = [(node, block) for node in walk(function) for block in (_block(node, "body"), _block(node, "orelse"))]
         for above, block in blocks:
-            once = ast.unparse(above.test) if isinstance(above, ast.If) and block is above.body else ""
+            once = unparse(above.test) if isinstance(above, ast.If) and block is above.body else ""
             numbers: dict[str, ast.stmt] = {}
             for statement in block:
                 match statement:
                     case ast.Assign(targets=[ast.Attribute() as target], value=ast.Constant(value=int() | float())):
-                        numbers[ast.unparse(target)] = statement
+                        numbers[unparse(target)] = statement
                     case ast.AugAssign(target=ast.Attribute() as target):
-                        made = numbers.get(ast.unparse(target))
-                        if made is not None and ast.unparse(target) not in once:
+                        made = numbers.get(unparse(target))
+                        if made is not None and unparse(target) not in once:
                             yield (
                                 made.lineno,
                                 "gyroscope",
-                                f"{ast.unparse(made)} is done before each step is added, so what was turned before is "
+                                f"{unparse(made)} is done before each step is added, so what was turned before is "
                                 "forgotten: set it once",
                             )
 
@@ -72,7 +72,7 @@ def steps_of_timers(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "gyroscope",
-                    f"{ast.unparse(node)[:60]} counts {step:g} s for each call, and the timer calls {function.name} "
+                    f"{unparse(node)[:60]} counts {step:g} s for each call, and the timer calls {function.name} "
                     f"every {period:g} s",
                 )
 

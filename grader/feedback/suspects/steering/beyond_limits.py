@@ -11,7 +11,16 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.suspects.steering.reaching_values import ReachingValues, UnknownValueError
 from gz_course.grader.feedback.suspects.steering.speed_limits import LIMITING, limit_names, reads_limit
 
@@ -33,7 +42,7 @@ class Rate:
 
 def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
     """Find the one value of angular.z that may be beyond its limit, in a node that steers by a lidar."""
-    if "angular.z" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
     values, known, found = ReachingValues(tree), named_numbers(tree), set()
     try:
@@ -42,14 +51,12 @@ def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
                 if rate.found:
                     found.add(rate.found)
                 elif rate.most == float("inf"):
-                    found.add(
-                        (target.lineno, f"{ast.unparse(target)} = {ast.unparse(value)[:60]} is not limited at all")
-                    )
+                    found.add((target.lineno, f"{unparse(target)} = {unparse(value)[:60]} is not limited at all"))
                 elif not rate.limited and rate.most > LIMIT:
-                    found.add((value.lineno, f"{ast.unparse(value)[:60]} may be up to {rate.most:.2f} rad/s"))
+                    found.add((value.lineno, f"{unparse(value)[:60]} may be up to {rate.most:.2f} rad/s"))
     except UnknownValueError:
         return
-    limits = any(number(node, {}) == LIMIT for node in walk(tree) if isinstance(node, ast.Constant))
+    limits = any(number(node, {}) == LIMIT for node in nodes_of(tree, ast.Constant))
     if len(found) == 1 and (limits or NOWHERE not in next(iter(found))[1]):
         line, said = found.pop()
         yield line, "limit", said
@@ -57,28 +64,28 @@ def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
 
 def limited_on_one_side(tree: ast.Module) -> Iterator[Suspect]:
     """Find `if turning > 1.5: turning = 1.5` without the other side."""
-    if "angular.z" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
-    known, text = named_numbers(tree), ast.unparse(tree)
+    known, text = named_numbers(tree), unparse(tree)
     for node in walk(tree):
         match node:
             case ast.If(
                 test=ast.Compare(left=left, ops=[ast.Gt() | ast.GtE()], comparators=[limit]),
                 body=[ast.Assign(targets=[target], value=value)],
-            ) if ast.unparse(left) == ast.unparse(target) and ast.unparse(limit) == ast.unparse(value):
-                name = re.escape(ast.unparse(left))
+            ) if unparse(left) == unparse(target) and unparse(limit) == unparse(value):
+                name = re.escape(unparse(left))
                 other = re.search(rf"{name} <|> {name}\b|abs\({name}\) [<>]", text)
                 other = other or re.search(rf"(max|min|clip|clamp|limit\w*|saturate)\([^\n)]*\b{name}\b", text)
                 if number(limit, known) == LIMIT and not other:
-                    said = f"if {ast.unparse(node.test)[:50]} limits it on one side only, and it may be below"
-                    yield node.lineno, "limit", f"{said} -{ast.unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
+                    said = f"if {unparse(node.test)[:50]} limits it on one side only, and it may be below"
+                    yield node.lineno, "limit", f"{said} -{unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
 
 
 def _sent(tree: ast.Module, name: str) -> Iterator[tuple[ast.expr, ast.expr, ast.FunctionDef]]:
     """Yield what is assigned to a part of a command: target, value and function."""
     for function in functions(tree):
         for target, value in assigned(function):
-            if ast.unparse(target).endswith(name):
+            if unparse(target).endswith(name):
                 changed = any(isinstance(node, ast.AugAssign) and node.target is target for node in walk(function))
                 if changed:
                     raise UnknownValueError
@@ -118,7 +125,7 @@ def _rates(
             return [Rate(found=rate.found) for rate in inside(left)]
         case ast.Call():
             return _called(node, function, values, known, deep)
-        case ast.Subscript(value=ast.Attribute() as kept) if ast.unparse(kept).startswith("self."):
+        case ast.Subscript(value=ast.Attribute() as kept) if unparse(kept).startswith("self."):
             raise UnknownValueError  # what was kept may be limited
         case ast.Subscript():
             return [Rate()]
@@ -148,7 +155,7 @@ def _called(
         parts = [rate for part in call.args for rate in _rates(part, function, values, known, deep - 1)]
         most = max(rate.most for rate in parts)
         way = "from above" if name == "min" else "from below"
-        said = f"{ast.unparse(call)[:60]} limits it {way} only"
+        said = f"{unparse(call)[:60]} limits it {way} only"
         return [Rate(most, found=(call.lineno, said) if most == float("inf") else None)]
     if name in COLLECTED:
         raise UnknownValueError  # what was collected may be limited
@@ -158,7 +165,7 @@ def _called(
 def _sum(node: ast.BinOp, one: Rate, other: Rate) -> Rate:
     if found := one.found or other.found:
         return Rate(found=found)
-    text, most = ast.unparse(node)[:60], one.most + other.most
+    text, most = unparse(node)[:60], one.most + other.most
     if one.limited and other.limited and most > LIMIT:
         said = f"{text} adds two terms that are limited each, and their sum may be {most:.1f} rad/s: limit the sum"
         return Rate(found=(node.lineno, said))
@@ -173,7 +180,7 @@ def _product(node: ast.BinOp, one: Rate, other: Rate) -> Rate:
     most = one.most * other.most
     limited = one.limited or other.limited
     if limited and most > LIMIT and min(one.most, other.most) > 1:
-        said = f"{ast.unparse(node)[:60]} multiplies what is limited already: limit last"
+        said = f"{unparse(node)[:60]} multiplies what is limited already: limit last"
         return Rate(found=(node.lineno, said))
     return Rate(most, limited=limited)
 
@@ -185,7 +192,7 @@ Speed = str | float | Found
 
 def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
     """Find the one value of linear.x that may be beyond the parameter speed_limit."""
-    if "speed_limit" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+    if "speed_limit" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
     speeds, found = Speeds(tree), set()
     try:
@@ -194,7 +201,7 @@ def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
                 if isinstance(speed, tuple):
                     found.add(speed)
                 elif isinstance(speed, float) and speed > 0:
-                    said = f"{ast.unparse(value)[:60]} may be {speed:g} m/s, whatever speed_limit is"
+                    said = f"{unparse(value)[:60]} may be {speed:g} m/s, whatever speed_limit is"
                     found.add((value.lineno, said))
     except UnknownValueError:
         return
@@ -213,7 +220,7 @@ class Speeds:
         """Return what an expression may be, for each of the values that it may have."""
         if deep == 0:
             raise UnknownValueError
-        if reads_limit(node) or ast.unparse(node) in self.limits:
+        if reads_limit(node) or unparse(node) in self.limits:
             return [AT_MOST]
         if (given := number(node, self.known)) is not None:
             return [float(given)]
@@ -248,7 +255,7 @@ class Speeds:
                 limits = [number(part, self.known) for part in node.args[1:]]
                 if name in LIMITING[2:] and limits and all(each is not None and 0 <= each <= 1 for each in limits):
                     return [SHARE]
-                own = name in self.values.own or ast.unparse(node.func).startswith("self.")
+                own = name in self.values.own or unparse(node.func).startswith("self.")
                 if own or name in LIMITING or name in ("min", "max", "get"):
                     raise UnknownValueError
                 return [SHARE if name in UNIT else FREE]
@@ -271,7 +278,7 @@ def _positive(node: ast.expr) -> bool:
 
 def _is_size(node: ast.expr) -> bool:
     """Say whether an expression is made of what has no sign, whatever it is otherwise."""
-    return _positive(node) and not isinstance(node, ast.Constant) and "min(" not in ast.unparse(node)
+    return _positive(node) and not isinstance(node, ast.Constant) and "min(" not in unparse(node)
 
 
 def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positive: bool) -> Speed:
@@ -279,7 +286,7 @@ def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positi
     for each in (one, other):
         if isinstance(each, tuple):
             return each
-    text, shown, right = ast.unparse(node)[:60], ast.unparse(node.left)[:30], ast.unparse(node.right)[:40]
+    text, shown, right = unparse(node)[:60], unparse(node.left)[:30], unparse(node.right)[:40]
     share = [each == SHARE or (isinstance(each, float) and 0 <= each <= 1) for each in (one, other)]
     if isinstance(one, float) and isinstance(op, ast.Sub) and one <= 1 and (positive or share[1]):
         return SHARE

@@ -8,7 +8,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, is_none, set_to, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    functions,
+    is_none,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.suspects.steering import endless_drives
 from gz_course.grader.feedback.suspects.steering.endless_drives import (
     TIMES,
@@ -29,8 +40,8 @@ def by_place(tree: ast.AST) -> Iterator[Suspect]:
     values = set_to(tree)
     compares = [
         node
-        for node in walk(tree)
-        if isinstance(node, ast.Compare) and len(node.ops) == 1 and not any(is_none(each) for each in node.comparators)
+        for node in nodes_of(tree, ast.Compare)
+        if len(node.ops) == 1 and not any(is_none(each) for each in node.comparators)
     ]
     if any(_reads_time(side, values, STEPS) for node in compares for side in (node.left, *node.comparators)):
         return
@@ -46,20 +57,20 @@ def by_place(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "by_place",
-                    f"{ast.unparse(node)[:60]} asks for {what} ({place[:50]}) and not for the time that has "
+                    f"{unparse(node)[:60]} asks for {what} ({place[:50]}) and not for the time that has "
                     f"passed{coordinate}",
                 )
                 break
 
 
 def _reads_time(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> bool:
-    parts = [each for each in walk(node) if isinstance(each, ast.Attribute | ast.Name)]
+    parts = [each for each in nodes_of(node, ast.Attribute, ast.Name)]
     if any((each.attr if isinstance(each, ast.Attribute) else each.id) in TIMES for each in parts):
         return True
     return steps > 0 and any(
         _reads_time(value, values, steps - 1)
         for each in parts
-        for value in values.get(ast.unparse(each), [])
+        for value in values.get(unparse(each), [])
         if value is not node
     )
 
@@ -67,15 +78,14 @@ def _reads_time(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -
 def _place(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> str:
     """Return the part of odometry's pose from which a value is made; empty if from none."""
     for each in walk(node):
-        text = ast.unparse(each) if isinstance(each, ast.Attribute) else ""
+        text = unparse(each) if isinstance(each, ast.Attribute) else ""
         if text.count(".") > 1 and (found := next((part for part in PLACES if part in text), "")):
             return text[text.index(found) :]
     if steps > 0:
-        for each in walk(node):
-            if isinstance(each, ast.Attribute | ast.Name):
-                for value in values.get(ast.unparse(each), []):
-                    if value is not node and (found := _place(value, values, steps - 1)):
-                        return found
+        for each in nodes_of(node, ast.Attribute, ast.Name):
+            for value in values.get(unparse(each), []):
+                if value is not node and (found := _place(value, values, steps - 1)):
+                    return found
     return ""
 
 
@@ -84,13 +94,12 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
     init = in_init(tree)
     starts = {
         name
-        for node in walk(tree)
-        if isinstance(node, ast.If | ast.IfExp)
+        for node in nodes_of(tree, ast.If, ast.IfExp)
         for test in _parts(node.test)
         if (name := asked_for_none(test))
     }
     for target, value in assigned(tree):
-        name = ast.unparse(target)
+        name = unparse(target)
         if name in starts and "." in name and id(value) not in init and is_none(value):
             yield (
                 target.lineno,
@@ -98,16 +107,16 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
                 f"{name} = None makes the next call take itself for the first one, so a new drive begins: leave "
                 f"{name} as it is when you stop",
             )
-    for block in (node for node in walk(tree) if isinstance(node, ast.If)):
+    for block in nodes_of(tree, ast.If):
         for statement in block.body:
             for target, value in assigned(statement):
-                name = ast.unparse(target)
+                name = unparse(target)
                 if id(target) in init or isinstance(value, ast.Constant) or not _late(block.test, name, tree):
                     continue
                 yield (
                     target.lineno,
                     "again",
-                    f"{name} = {ast.unparse(value)[:40]} stands below  if {ast.unparse(block.test)[:60]}:, so it is "
+                    f"{name} = {unparse(value)[:40]} stands below  if {unparse(block.test)[:60]}:, so it is "
                     "set again when the time is over, and a new drive begins: set it once, if it is None",
                 )
 
@@ -121,9 +130,9 @@ def _late(test: ast.expr, start: str, tree: ast.AST) -> bool:
     values = set_to(tree)
     for part in _parts(test):
         if isinstance(part, ast.Compare) and isinstance(part.ops[0], ast.Gt | ast.GtE):
-            sides = [part.left, *values.get(ast.unparse(part.left), [])]
+            sides = [part.left, *values.get(unparse(part.left), [])]
             for node in (each for side in sides for each in walk(side)):
-                if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and ast.unparse(node.right) == start:
+                if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) and unparse(node.right) == start:
                     return True
     return False
 
@@ -153,7 +162,7 @@ def _returns(block: ast.If) -> bool:
 def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time that is compared with == and a number of seconds: it holds for a moment, or for a second."""
     values = set_to(tree)
-    for node in (each for each in walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
+    for node in (each for each in nodes_of(tree, ast.Compare) if len(each.ops) == 1):
         sides = (node.left, node.comparators[0])
         number = next((each.value for each in sides if isinstance(each, ast.Constant)), None)
         late = isinstance(node.ops[0], ast.Eq) and isinstance(number, int | float) and number >= 1
@@ -161,13 +170,13 @@ def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "again",
-                f"{ast.unparse(node)[:60]} holds for a moment and then no more: >= holds from then on",
+                f"{unparse(node)[:60]} holds for a moment and then no more: >= holds from then on",
             )
 
 
 def of_a_plain_drive(tree: ast.AST) -> Iterator[Suspect]:
     """Look into a file that sends velocities and hears of nothing but odometry: it drives for a time, to no goal."""
-    heard = {ast.unparse(call.args[0]) for call, name in calls(tree) if name == "create_subscription" and call.args}
+    heard = {unparse(call.args[0]) for call, name in calls(tree) if name == "create_subscription" and call.args}
     if not any(True for _ in set_speeds(tree)) or heard - {"Odometry", "Clock"} or called(tree) & OTHER_TASKS:
         return
     for look in (*endless_drives.LOOKS, by_place, set_again, falls_through, for_a_moment):

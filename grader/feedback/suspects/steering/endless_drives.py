@@ -6,7 +6,18 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, set_to, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.slips.clocks.time_units import unit_of
 
 LONG = 8.0  # [s] more is no drive of a run
@@ -22,11 +33,11 @@ def asked_for_none(test: ast.expr) -> str:
     """Return the name of `NAME is None`, `not NAME`, `NAME < 0` and `NAME == 0`; empty for other conditions."""
     match test:
         case ast.Compare(left=left, ops=[ast.Is() | ast.Eq()], comparators=[ast.Constant(value=None | 0)]):
-            return ast.unparse(left)
+            return unparse(left)
         case ast.Compare(left=left, ops=[ast.Lt()], comparators=[ast.Constant(value=0)]):
-            return ast.unparse(left)
+            return unparse(left)
         case ast.UnaryOp(op=ast.Not(), operand=ast.Name() | ast.Attribute() as operand):
-            return ast.unparse(operand)
+            return unparse(operand)
     return ""
 
 
@@ -36,14 +47,14 @@ def is_zero(value: ast.expr) -> bool:
 
 def set_speeds(node: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
     """Yield the assignments of `linear.x`: the whole target, and its value."""
-    return ((target, value) for target, value in assigned(node) if ast.unparse(target).endswith(".linear.x"))
+    return ((target, value) for target, value in assigned(node) if unparse(target).endswith(".linear.x"))
 
 
 def publish_calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
     """Yield each publish() with the code of the message."""
     for call, name in calls(node):
         if name == "publish" and call.args:
-            yield call, ast.unparse(call.args[0])
+            yield call, unparse(call.args[0])
 
 
 def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
@@ -65,19 +76,19 @@ def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
 def computed_once(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time that is computed only where the start is set, and compared in every call."""
     init, values = in_init(tree), set_to(tree)
-    for block in (node for node in walk(tree) if isinstance(node, ast.If) and asked_for_none(node.test)):
+    for block in (node for node in nodes_of(tree, ast.If) if asked_for_none(node.test)):
         start = asked_for_none(block.test)
         inside = [pair for statement in block.body for pair in assigned(statement)]
-        if start not in {ast.unparse(target) for target, _ in inside}:
+        if start not in {unparse(target) for target, _ in inside}:
             continue
         for target, value in inside:
-            name = ast.unparse(target)
+            name = unparse(target)
             others = [each for each in values[name] if each is not value and id(each) not in init]
             if name != start and not others and _has_difference(value) and _compared(tree, name):
                 yield (
                     target.lineno,
                     "endless",
-                    f"{name} is computed only here, below  if {ast.unparse(block.test)}:, which holds once; compute "
+                    f"{name} is computed only here, below  if {unparse(block.test)}:, which holds once; compute "
                     "it in every call",
                 )
 
@@ -88,7 +99,7 @@ def _has_difference(value: ast.expr) -> bool:
 
 def _compared(tree: ast.AST, name: str) -> bool:
     return any(
-        isinstance(node, ast.Compare) and any(ast.unparse(each) == name for each in (node.left, *node.comparators))
+        isinstance(node, ast.Compare) and any(unparse(each) == name for each in (node.left, *node.comparators))
         for node in walk(tree)
     )
 
@@ -98,31 +109,31 @@ def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
     nodes = in_init(tree)
     sent = {message for _, message in publish_calls(tree)}
     made = {
-        ast.unparse(target).removeprefix("self."): value
+        unparse(target).removeprefix("self."): value
         for target, value in assigned(tree)
         if isinstance(value, ast.Call) and last_name(value.func) == "Twist"
     }
     for function in (each for each in functions(tree) if each.name != "__init__"):
-        own = {ast.unparse(target) for target, _ in assigned(function)} | {each.arg for each in function.args.args}
-        for block in (node for node in walk(function) if isinstance(node, ast.If)):
+        own = {unparse(target) for target, _ in assigned(function)} | {each.arg for each in function.args.args}
+        for block in nodes_of(function, ast.If):
             for target, value in (pair for statement in block.body for pair in set_speeds(statement)):
-                message = ast.unparse(target).removesuffix(".linear.x")
+                message = unparse(target).removesuffix(".linear.x")
                 once = message in sent - own and message.removeprefix("self.") in made
                 again = any(
-                    ast.unparse(each) == message and id(given) not in nodes and message.startswith("self.")
+                    unparse(each) == message and id(given) not in nodes and message.startswith("self.")
                     for each, given in assigned(tree)
                 )
                 zero = any(
                     is_zero(other) or not isinstance(other, ast.Constant)
                     for each, other in set_speeds(tree)
-                    if ast.unparse(each) == ast.unparse(target) and id(other) not in nodes
+                    if unparse(each) == unparse(target) and id(other) not in nodes
                 )
                 if once and not again and not zero and not is_zero(value):
                     yield (
                         target.lineno,
                         "endless",
                         f"{message} is one message for all calls and keeps what is set here, below  "
-                        f"if {ast.unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 "
+                        f"if {unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 "
                         "then, or make a new Twist() in every call",
                     )
 
@@ -130,23 +141,22 @@ def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
 def refreshed(tree: ast.AST) -> Iterator[Suspect]:
     """Find a start that another callback sets anew each time it is called."""
     starts = {
-        ast.unparse(part.right)
-        for node in walk(tree)
-        if isinstance(node, ast.BinOp | ast.Compare)
-        for part in walk(node)
-        if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Sub) and isinstance(part.right, ast.Attribute)
+        unparse(part.right)
+        for node in nodes_of(tree, ast.BinOp, ast.Compare)
+        for part in nodes_of(node, ast.BinOp)
+        if isinstance(part.op, ast.Sub) and isinstance(part.right, ast.Attribute)
     }
     values = set_to(tree)
     for function in (each for each in functions(tree) if each.name != "__init__"):
-        own = {ast.unparse(part.right) for part in walk(function) if isinstance(part, ast.BinOp)}
+        own = {unparse(part.right) for part in nodes_of(function, ast.BinOp)}
         for statement in function.body:
             for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
-                name = ast.unparse(target)
+                name = unparse(target)
                 if name in starts - own and any(last_name(each) in TIMES for each in walk(value)) and values[name]:
                     yield (
                         statement.lineno,
                         "endless",
-                        f"{name} = {ast.unparse(value)[:40]} sets the start again in every call of {function.name}, so "
+                        f"{name} = {unparse(value)[:40]} sets the start again in every call of {function.name}, so "
                         "the time since then stays short: set it once, if it is None",
                     )
 
@@ -156,14 +166,12 @@ def default_messages(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         arguments, defaults = function.args.args, function.args.defaults
         for argument, default in zip(arguments[len(arguments) - len(defaults) :], defaults, strict=True):
-            filled = [
-                target for target, _ in set_speeds(function) if ast.unparse(target).startswith(f"{argument.arg}.")
-            ]
+            filled = [target for target, _ in set_speeds(function) if unparse(target).startswith(f"{argument.arg}.")]
             if filled and isinstance(default, ast.Call):
                 yield (
                     function.lineno,
                     "endless",
-                    f"{argument.arg}={ast.unparse(default)} is made once, when {function.name} is defined, and keeps "
+                    f"{argument.arg}={unparse(default)} is made once, when {function.name} is defined, and keeps "
                     f"what line {filled[0].lineno} sets from call to call: make the message in the function",
                 )
 
@@ -172,36 +180,36 @@ def long_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time in seconds that is compared with far more of them than a drive takes."""
     numbers, values = named_numbers(tree), set_to(tree)
     declared = {
-        ast.unparse(call.args[0]): value
+        unparse(call.args[0]): value
         for call, name in calls(tree)
         if name == "declare_parameter" and len(call.args) > 1 and (value := number(call.args[1], numbers))
     }
-    for node in (each for each in walk(tree) if isinstance(each, ast.Compare) and len(each.ops) == 1):
+    for node in (each for each in nodes_of(tree, ast.Compare) if len(each.ops) == 1):
         for one, other in ((node.left, node.comparators[0]), (node.comparators[0], node.left)):
             given = other
-            while isinstance(given, ast.Name | ast.Attribute) and len(values.get(ast.unparse(given), [])) == 1:
-                given = values[ast.unparse(given)][0]
+            while isinstance(given, ast.Name | ast.Attribute) and len(values.get(unparse(given), [])) == 1:
+                given = values[unparse(given)][0]
             asked = [call for call, name in calls(given) if name == "get_parameter" and call.args]
-            limit = declared.get(ast.unparse(asked[0].args[0])) if asked else number(other, numbers)
+            limit = declared.get(unparse(asked[0].args[0])) if asked else number(other, numbers)
             if limit and limit > LONG and unit_of(one, values, numbers) == 1.0:
                 yield (
                     node.lineno,
                     "endless",
-                    f"{ast.unparse(node)[:70]} compares a time in seconds with {limit:g}: that many seconds are longer "
+                    f"{unparse(node)[:70]} compares a time in seconds with {limit:g}: that many seconds are longer "
                     "than the run",
                 )
 
 
 def not_read(tree: ast.AST) -> Iterator[Suspect]:
     """Find an attribute that a method sets to end something, and that nobody reads, or `__init__` alone."""
-    for owner in (node for node in walk(tree) if isinstance(node, ast.ClassDef)):
+    for owner in nodes_of(tree, ast.ClassDef):
         init = in_init(owner)
         read: dict[str, list[ast.Attribute]] = {}
-        for node in walk(owner):
-            if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
-                read.setdefault(ast.unparse(node), []).append(node)
+        for node in nodes_of(owner, ast.Attribute):
+            if isinstance(node.ctx, ast.Load):
+                read.setdefault(unparse(node), []).append(node)
         for target, value in assigned(owner):
-            name = ast.unparse(target)
+            name = unparse(target)
             if not name.startswith("self.") or name.count(".") > 1 or not isinstance(value, ast.Constant):
                 continue
             readers = read.get(name, [])
@@ -210,7 +218,7 @@ def not_read(tree: ast.AST) -> Iterator[Suspect]:
             who = (
                 f"only __init__ reads {name}, once, in line {readers[0].lineno}" if readers else f"nothing reads {name}"
             )
-            yield target.lineno, "endless", f"{name} = {ast.unparse(value)} changes nothing: {who}"
+            yield target.lineno, "endless", f"{name} = {unparse(value)} changes nothing: {who}"
 
 
 def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
@@ -229,7 +237,7 @@ def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 statement.lineno,
                 "endless",
-                f"{ast.unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
+                f"{unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
                 "it, so every call sets this speed; indent it, or return where the time is over",
             )
             return

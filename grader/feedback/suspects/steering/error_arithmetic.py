@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, last_name, set_to, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, last_name, set_to, unparse, walk
 
 ROUNDS = frozenset({"int", "round", "floor", "ceil", "trunc", "rint"})
 ERROR = re.compile(r"(^|[._])(e|err|error|diff|difference|deviation|offset)\w*$", re.IGNORECASE)
@@ -20,12 +20,12 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
     for node in walk(tree):
         match node:
             case ast.Call(args=[given], keywords=[]) if last_name(node.func) in ROUNDS:
-                values = known.get(ast.unparse(given), [given])
+                values = known.get(unparse(given), [given])
                 if all(_is_difference(each) for each in values):
                     yield (
                         node.lineno,
                         "whole metres",
-                        f"{ast.unparse(node)[:60]} is a whole number of metres: an error below 1 m, or 0.5 m, becomes "
+                        f"{unparse(node)[:60]} is a whole number of metres: an error below 1 m, or 0.5 m, becomes "
                         "0; leave it as it is",
                     )
 
@@ -38,12 +38,12 @@ def divided(tree: ast.Module) -> Iterator[Suspect]:
     for node in walk(tree):
         match node:
             case ast.BinOp(op=ast.Div(), left=gain, right=error) if _is_gain(gain):
-                values = known.get(ast.unparse(error), [])
-                if ERROR.search(ast.unparse(error)) and values and all(_is_difference(each) for each in values):
+                values = known.get(unparse(error), [])
+                if ERROR.search(unparse(error)) and values and all(_is_difference(each) for each in values):
                     yield (
                         node.lineno,
                         "divided",
-                        f"{ast.unparse(node)[:60]} divides by the error: the smaller the error is, the more the robot "
+                        f"{unparse(node)[:60]} divides by the error: the smaller the error is, the more the robot "
                         "turns; multiply the gain by it",
                     )
 
@@ -53,21 +53,19 @@ def _is_gain(node: ast.expr) -> bool:
         case ast.Constant(value=int() | float()):
             return True
         case ast.Name() | ast.Attribute():
-            return bool(re.search(r"gain|^k|_k|\bk", ast.unparse(node), re.IGNORECASE))
+            return bool(re.search(r"gain|^k|_k|\bk", unparse(node), re.IGNORECASE))
     return False
 
 
 def _is_difference(value: ast.expr) -> bool:
     match value:
         case ast.BinOp(op=ast.Sub(), left=left, right=right):
-            return not any(isinstance(each, ast.Constant) for each in (left, right)) and "stamp" not in ast.unparse(
-                value
-            )
+            return not any(isinstance(each, ast.Constant) for each in (left, right)) and "stamp" not in unparse(value)
     return False
 
 
 def _steers(tree: ast.Module) -> bool:
-    text = ast.unparse(tree)
+    text = unparse(tree)
     return "angular.z" in text and ".ranges" in text
 
 

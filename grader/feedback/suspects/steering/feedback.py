@@ -6,7 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, last_name, set_to, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    functions,
+    last_name,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
 
 MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"})
 ERROR = re.compile(
@@ -20,13 +29,13 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 def _lists_of_ranges(function: Function) -> set[str]:
     """Return the names of lists that hold ranges of a scan and nothing else."""
-    loops = [node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)]
+    loops = [node for node in nodes_of(function, ast.For, ast.comprehension)]
     single = {name for loop in loops if (name := _range_of(loop))}
-    names = {ast.unparse(target) for target, value in assigned(function) if _is_list_of_ranges(value)}
+    names = {unparse(target) for target, value in assigned(function) if _is_list_of_ranges(value)}
     for node in walk(function):
         match node:
             case ast.Call(func=ast.Attribute(value=kept, attr="append"), args=[ast.Name(id=name)]) if name in single:
-                names.add(ast.unparse(kept))
+                names.add(unparse(kept))
     return names
 
 
@@ -50,27 +59,27 @@ def _range_of(loop: ast.For | ast.comprehension) -> str:
     match given, target:
         case ast.Call(func=ast.Name(id="enumerate"), args=[given, *_]), ast.Tuple(elts=[_, target]):
             pass
-    text = ast.unparse(given).partition("[")[0]
+    text = unparse(given).partition("[")[0]
     return target.id if isinstance(target, ast.Name) and text.endswith(".ranges") else ""
 
 
 def means(tree: ast.AST) -> Iterator[Suspect]:
     """Find the mean, or the median, of ranges in a node that steers, in place of the nearest of them."""
-    if "angular.z" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree):
         return
     for function in functions(tree):
         lists = _lists_of_ranges(function)
         for node in walk(function):
             of = ""
             if isinstance(node, ast.Call) and last_name(node.func) in MEANS and node.args:
-                of = ast.unparse(node.args[0])
+                of = unparse(node.args[0])
             elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
                 of = _summed(node)
             if of in lists or (of.endswith("]") and of.partition("[")[0].endswith(".ranges")):
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
                     "mean",
-                    f"{ast.unparse(node)[:60]} depends on all that those rays see, near and far: the distance from a "
+                    f"{unparse(node)[:60]} depends on all that those rays see, near and far: the distance from a "
                     "wall is that of its nearest point, min(...)",
                 )
 
@@ -79,21 +88,19 @@ def _summed(node: ast.BinOp) -> str:
     """Return `x` of `sum(x) / len(x)`; empty for anything else."""
     match node.left, node.right:
         case ast.Call(func=ast.Name(id="sum"), args=[one]), ast.Call(func=ast.Name(id="len"), args=[other]):
-            return ast.unparse(one) if ast.unparse(one) == ast.unparse(other) else ""
+            return unparse(one) if unparse(one) == unparse(other) else ""
     return ""
 
 
 def added_commands(tree: ast.AST) -> Iterator[Suspect]:
     """Find a turning rate that is made by adding to the last one."""
     for function in functions(tree):
-        values = {
-            ast.unparse(target): value for target, value in assigned(function) if not isinstance(target, ast.Tuple)
-        }
+        values = {unparse(target): value for target, value in assigned(function) if not isinstance(target, ast.Tuple)}
         for node in walk(function):
             if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add | ast.Sub):
-                old, new = ast.unparse(node.target), node.value
+                old, new = unparse(node.target), node.value
             elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-                old, new = ast.unparse(node.left), node.right
+                old, new = unparse(node.left), node.right
             else:
                 continue
             if not old.startswith("self.") or isinstance(new, ast.Constant) or _depends(new, old, values, STEPS):
@@ -104,14 +111,14 @@ def added_commands(tree: ast.AST) -> Iterator[Suspect]:
                 yield (
                     node.lineno,
                     "added",
-                    f"{ast.unparse(node)[:60]} adds the correction to the last command, so it grows as long as the "
+                    f"{unparse(node)[:60]} adds the correction to the last command, so it grows as long as the "
                     "error lasts: a correction is the whole angular.z, computed for each scan alone",
                 )
 
 
 def _depends(node: ast.AST, name: str, values: dict[str, ast.expr], steps: int) -> bool:
     """Return whether an expression reads a name, also by way of other names."""
-    texts = {ast.unparse(each) for each in walk(node) if isinstance(each, ast.Name | ast.Attribute)}
+    texts = {unparse(each) for each in nodes_of(node, ast.Name, ast.Attribute)}
     if name in texts:
         return True
     return steps > 0 and any(_depends(values[text], name, values, steps - 1) for text in texts if text in values)
@@ -119,12 +126,12 @@ def _depends(node: ast.AST, name: str, values: dict[str, ast.expr], steps: int) 
 
 def _becomes_turning(function: Function, name: str) -> bool:
     """Return whether angular.z is assigned this very value, perhaps limited or with a sign."""
-    return any(ast.unparse(target).endswith("angular.z") and _bare(value, name) for target, value in assigned(function))
+    return any(unparse(target).endswith("angular.z") and _bare(value, name) for target, value in assigned(function))
 
 
 def _bare(node: ast.expr, name: str) -> bool:
     """Return whether an expression is a name, limited or with another sign, and not one term of a sum."""
-    if ast.unparse(node) == name:
+    if unparse(node) == name:
         return True
     match node:
         case ast.UnaryOp(operand=inner):
@@ -139,9 +146,9 @@ def _bare(node: ast.expr, name: str) -> bool:
 def _stored(function: Function, node: ast.AST, old: str, values: dict[str, ast.expr]) -> bool:
     """Return whether a sum ends up where its first term was read."""
     for target, value in assigned(function):
-        if ast.unparse(target) == old:
+        if unparse(target) == old:
             inside = any(each is node for each in walk(value))
-            names = {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Name)}
+            names = {unparse(each) for each in nodes_of(value, ast.Name)}
             if inside or any(values.get(name) is node for name in names):
                 return True
     return False
@@ -149,26 +156,26 @@ def _stored(function: Function, node: ast.AST, old: str, values: dict[str, ast.e
 
 def integrals(tree: ast.AST) -> Iterator[Suspect]:
     """Find a sum of errors that a node that steers keeps from scan to scan."""
-    if "angular.z" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree):
         return
     limited = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
-        if isinstance(value, ast.Call | ast.IfExp) and ast.unparse(target) in ast.unparse(value)
+        if isinstance(value, ast.Call | ast.IfExp) and unparse(target) in unparse(value)
     }
     for node in walk(tree):
         name, value = "", None
         if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
-            name, value = ast.unparse(node.target), node.value
+            name, value = unparse(node.target), node.value
         elif isinstance(node, ast.Assign) and isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.Add):
-            name, value = ast.unparse(node.targets[0]), node.value.right
-            name = name if ast.unparse(node.value.left) == name else ""
+            name, value = unparse(node.targets[0]), node.value.right
+            name = name if unparse(node.value.left) == name else ""
         kept = name.startswith("self.") and name not in limited and not isinstance(value, ast.Constant)
-        if kept and ERROR.search(ast.unparse(node)):
+        if kept and ERROR.search(unparse(node)):
             yield (
                 node.lineno,  # type: ignore[attr-defined]
                 "integral",
-                f"{ast.unparse(node)[:60]} is an integral that nothing limits: it grows while the robot is far "
+                f"{unparse(node)[:60]} is an integral that nothing limits: it grows while the robot is far "
                 "away, and keeps it turning when it is near (wind-up); limit it, or leave it out",
             )
 
@@ -177,12 +184,12 @@ def kept_parameters(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Parameter that __init__ keeps: other than its name says, it does not follow the node's parameter."""
     init = next((function for function in functions(tree) if function.name == "__init__"), None)
     for target, value in assigned(init) if init is not None else ():
-        kept = ast.unparse(target)
+        kept = unparse(target)
         if isinstance(value, ast.Call) and last_name(value.func) == "get_parameter" and kept.startswith("self."):
             yield (
                 value.lineno,
                 "parameter",
-                f"{kept} = {ast.unparse(value)[:60]} keeps a Parameter, which is a copy: its .value does not change "
+                f"{kept} = {unparse(value)[:60]} keeps a Parameter, which is a copy: its .value does not change "
                 "when the parameter is set",
             )
 
@@ -191,16 +198,16 @@ def added_setpoints(tree: ast.AST) -> Iterator[Suspect]:
     """Find a parameter that is added to a measured distance, where only the rest of the way could be meant."""
     given = set_to(tree)
     parameters, measured = (
-        {name for name, values in given.items() if any(pattern.search(ast.unparse(each)) for each in values)}
+        {name for name, values in given.items() if any(pattern.search(unparse(each)) for each in values)}
         for pattern in (PARAMETER, MEASURED)
     )
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Add):
             continue
-        sides = [ast.unparse(each) for each in (node.left, node.right)]
+        sides = [unparse(each) for each in (node.left, node.right)]
         for wanted, distance in (sides, sides[::-1]):
             if wanted in parameters and (MEASURED.search(distance) or distance in measured):
-                said = f"{ast.unparse(node)[:60]}: what is left to drive is the difference, {distance} - {wanted}"
+                said = f"{unparse(node)[:60]}: what is left to drive is the difference, {distance} - {wanted}"
                 yield node.lineno, "setpoint", said
 
 

@@ -6,7 +6,17 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 KEPT = re.compile(r"gap|desired|wanted|1\.2\b|keep|spacing|target_dist", re.IGNORECASE)
 MEASURED = re.compile(r"dist|hypot|range|length|separation", re.IGNORECASE)
@@ -14,32 +24,32 @@ LESS = re.compile(r"dist|error|gap|hypot|excess|behind|err\b", re.IGNORECASE)
 
 
 def _speeds(tree: ast.AST) -> list[tuple[ast.expr, ast.expr]]:
-    return [(target, value) for target, value in assigned(tree) if ast.unparse(target).endswith("linear.x")]
+    return [(target, value) for target, value in assigned(tree) if unparse(target).endswith("linear.x")]
 
 
 def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
     """Find the gap minus the distance in a file that takes no speed with a minus sign."""
     if any(isinstance(node, ast.USub) for _, value in _speeds(tree) for node in walk(value)):
         return
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Sub):
             continue
-        left, right = ast.unparse(node.left), ast.unparse(node.right)
+        left, right = unparse(node.left), unparse(node.right)
         if KEPT.search(left) and MEASURED.search(right) and not MEASURED.search(left):
             yield (
                 node.lineno,
                 "gap",
-                f"{ast.unparse(node)[:60]} is below zero where the distance is too large: the speed is made of the "
+                f"{unparse(node)[:60]} is below zero where the distance is too large: the speed is made of the "
                 "distance minus the gap",
             )
 
 
 def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
     """Find a condition that lets a robot drive only where the distance, or the error, is small."""
-    for node in walk(tree):
-        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+    for node in nodes_of(tree, ast.If):
+        if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
             continue
-        test, left, right = node.test, ast.unparse(node.test.left), ast.unparse(node.test.comparators[0])
+        test, left, right = node.test, unparse(node.test.left), unparse(node.test.comparators[0])
         less = isinstance(test.ops[0], ast.Lt | ast.LtE) and LESS.search(left) and "abs" not in left
         more = isinstance(test.ops[0], ast.Gt | ast.GtE) and LESS.search(right) and not LESS.search(left)
         if not (less or more) or not _drives(node.body) or _drives(node.orelse):
@@ -49,7 +59,7 @@ def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "gap",
-                f"it drives only where {ast.unparse(test)[:60]}, which does not hold where it is behind",
+                f"it drives only where {unparse(test)[:60]}, which does not hold where it is behind",
             )
 
 
@@ -63,9 +73,9 @@ def _is_zero(value: ast.expr) -> bool:
 
 def added_positions(tree: ast.AST) -> Iterator[Suspect]:
     """Find a position of an odometry that is added to a sum with each message."""
-    for node in walk(tree):
-        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add) and ".position." in ast.unparse(node.value):
-            name = ast.unparse(node.target)
+    for node in nodes_of(tree, ast.AugAssign):
+        if isinstance(node.op, ast.Add) and ".position." in unparse(node.value):
+            name = unparse(node.target)
             if name.startswith("self."):
                 yield (
                     node.lineno,
@@ -78,12 +88,12 @@ def added_positions(tree: ast.AST) -> Iterator[Suspect]:
 def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
     """Find a speed that int() or // makes a whole number."""
     for _, value in _speeds(tree):
-        whole = [node for node in walk(value) if isinstance(node, ast.Call) and ast.unparse(node.func) == "int"]
+        whole = [node for node in nodes_of(value, ast.Call) if unparse(node.func) == "int"]
         if whole or any(isinstance(node, ast.FloorDiv) for node in walk(value)):
             yield (
                 value.lineno,
                 "whole_speed",
-                f"{ast.unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0",
+                f"{unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0",
             )
 
 
@@ -91,20 +101,20 @@ def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
     """Find a timer that is cancelled in its own callback where a distance is small, and never begins again."""
     if called(tree) & {"reset"} or "create_subscription" not in called(tree):
         return
-    near = [each for each in walk(tree) if isinstance(each, ast.If) and LESS.search(ast.unparse(each.test))]
+    near = [each for each in nodes_of(tree, ast.If) if LESS.search(unparse(each.test))]
     under = {id(node) for each in near for part in each.body for node in walk(part)}
     for target, value in assigned(tree):
         if not isinstance(value, ast.Call) or last_name(value.func) != "create_timer":
             continue
-        timer, callback = ast.unparse(target), last_name(value.args[1]) if len(value.args) > 1 else ""
+        timer, callback = unparse(target), last_name(value.args[1]) if len(value.args) > 1 else ""
         for function in (each for each in functions(tree) if each.name == callback):
             for call, name in calls(function):
-                ends = name == "cancel" and ast.unparse(call.func) == f"{timer}.cancel"
-                if id(call) in under and (ends or (name == "destroy_timer" and timer in map(ast.unparse, call.args))):
+                ends = name == "cancel" and unparse(call.func) == f"{timer}.cancel"
+                if id(call) in under and (ends or (name == "destroy_timer" and timer in map(unparse, call.args))):
                     yield (
                         call.lineno,
                         "silenced",
-                        f"{ast.unparse(call)} ends the timer for good, so {callback} is never called again: return "
+                        f"{unparse(call)} ends the timer for good, so {callback} is never called again: return "
                         "instead, or send a Twist of zeros",
                     )
 

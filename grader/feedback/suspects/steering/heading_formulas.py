@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Callable, Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, last_name, nodes_of, unparse, walk
 
 NAMED = re.compile(r"heading|yaw|theta", re.IGNORECASE)
 TURNED = (1.0, -1.2, 2.1, -2.6)  # [rad] headings that are tried
@@ -73,11 +73,11 @@ def other_formulas(tree: ast.AST) -> Iterator[Suspect]:
                 names[target.id] = ast.Constant(None) if target.id in names else value  # two values are unknown
         given = [(t, v) for t, v in assigned(function) if NAMED.search(last_name(t))]
         if NAMED.search(function.name):
-            given += [(n.value, n.value) for n in walk(function) if isinstance(n, ast.Return) and n.value is not None]
+            given += [(n.value, n.value) for n in nodes_of(function, ast.Return) if n.value is not None]
         for _, value in given:
             said = _said(value, names) if _of_a_quaternion(value, names) else ""
             if said:
-                yield value.lineno, "heading", f"`{ast.unparse(value)[:80]}` {said}"
+                yield value.lineno, "heading", f"`{unparse(value)[:80]}` {said}"
 
 
 def _of_a_quaternion(value: ast.expr, names: dict[str, ast.expr], depth: int = DEEPEST) -> bool:

@@ -8,7 +8,18 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    called,
+    calls,
+    children,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
 MOST = 3.2  # [rad] a larger limit of an angle was meant in degrees
@@ -25,23 +36,23 @@ Y = re.compile(r"\bd?y\b|\[1\]|\bd_?y\b|\bdelta_y\b|\b(?:leftward|left|aside|sid
 def _quaternions(tree: ast.AST) -> set[str]:
     """Return the names that stand for a quaternion: those that are assigned something.orientation."""
     found = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
         if isinstance(value, ast.Attribute) and value.attr in ("orientation", "rotation")
     }
     own = {each.name: [one.arg for one in each.args.args if one.arg != "self"] for each in functions(tree)}
     for call, name in calls(tree):
         given = zip(own.get(name, []), call.args, strict=False)
-        found |= {one for one, value in given if ast.unparse(value).endswith((".orientation", ".rotation"))}
+        found |= {one for one, value in given if unparse(value).endswith((".orientation", ".rotation"))}
     return found
 
 
 def _headings(tree: ast.AST) -> Iterator[ast.expr]:
     """Yield what is assigned to a heading, and what a function with such a name returns."""
-    yield from (value for target, value in assigned(tree) if HEADING.search(ast.unparse(target)))
+    yield from (value for target, value in assigned(tree) if HEADING.search(unparse(target)))
     for function in functions(tree):
         if HEADING.search(function.name):
-            found = (each.value for each in walk(function) if isinstance(each, ast.Return))
+            found = (each.value for each in nodes_of(function, ast.Return))
             yield from (value for value in found if value is not None)
 
 
@@ -49,7 +60,7 @@ def _part(node: ast.AST, names: set[str]) -> str:
     """Return which part of a quaternion an expression is, such as `z`; empty if it is none."""
     if not isinstance(node, ast.Attribute) or node.attr not in ("x", "y", "z", "w"):
         return ""
-    of = ast.unparse(node.value)
+    of = unparse(node.value)
     return node.attr if of in names or of.endswith((".orientation", ".rotation")) else ""
 
 
@@ -62,7 +73,7 @@ def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
             continue
         words = _wrong_heading(value, parts, names)
         if words and not (words.startswith("acos") and _signed(tree, names)):
-            yield value.lineno, "heading", f"{ast.unparse(value)[:60]} is taken for the heading: {words}"
+            yield value.lineno, "heading", f"{unparse(value)[:60]} is taken for the heading: {words}"
 
 
 def _signed(tree: ast.AST, names: set[str]) -> bool:
@@ -97,43 +108,41 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
 
 def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
-    in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     of_scans = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
-        if OF_SCANS.search(ast.unparse(value)) and not called(value) & (TO_DEGREES | TO_RADIANS | {"int", "round"})
+        if OF_SCANS.search(unparse(value)) and not called(value) & (TO_DEGREES | TO_RADIANS | {"int", "round"})
     }
     of_scans -= in_degrees
-    for node in walk(tree):
-        if not isinstance(node, ast.Call):
-            continue
+    for node in nodes_of(tree, ast.Call):
         name, given = last_name(node.func), [*node.args]
-        text = ast.unparse(node)[:60]
+        text = unparse(node)[:60]
         if name in SINES and given and not called(given[0]) & TO_RADIANS and not _to_radians(given[0]):
-            parts = {ast.unparse(each) for each in walk(given[0]) if isinstance(each, ast.Name | ast.Attribute)}
+            parts = {unparse(each) for each in nodes_of(given[0], ast.Name, ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
                 yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
-        of_scan = given and (OF_SCANS.search(ast.unparse(given[0])) or ast.unparse(given[0]) in of_scans)
+        of_scan = given and (OF_SCANS.search(unparse(given[0])) or unparse(given[0]) in of_scans)
         if name in TO_RADIANS and of_scan and not _in_degrees(given[0]):
             yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"
 
 
 def _in_degrees(value: ast.AST) -> bool:
-    return bool(called(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", ast.unparse(value)))
+    return bool(called(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", unparse(value)))
 
 
 def _to_radians(value: ast.AST) -> bool:
-    return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", ast.unparse(value)))
+    return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", unparse(value)))
 
 
 def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angular.z that is assigned degrees."""
-    in_degrees = {ast.unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     known = named_numbers(tree)
     for target, value in assigned(tree):
-        parts = {ast.unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
+        parts = {unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
         wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
-        if wrong and ast.unparse(target).endswith("angular.z"):
+        if wrong and unparse(target).endswith("angular.z"):
             yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
 
 
@@ -146,60 +155,60 @@ def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
         if any(abs(each) < PER_DEGREE for each in gains):
             return
     yield value
-    for child in ast.iter_child_nodes(value):
+    for child in children(value):
         yield from _counting(child, known)
 
 
 def sine_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find atan2 of x and y."""
-    for node in walk(tree):
-        if not isinstance(node, ast.Call) or last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
+    for node in nodes_of(tree, ast.Call):
+        if last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
             continue
-        first, second = (ast.unparse(each) for each in node.args)
+        first, second = (unparse(each) for each in node.args)
         if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
-            yield node.lineno, "heading", f"{ast.unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
+            yield node.lineno, "heading", f"{unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
 
 
 def differences(tree: ast.AST) -> Iterator[Suspect]:
     """Find the difference of a direction and a heading in a file that brings no angle between -pi and pi."""
-    text = ast.unparse(tree)
+    text = unparse(tree)
     if re.search(
         r"remainder\(|fmod\(|% |atan2\((?:math\.|np\.)?sin|arctan2\(np\.sin|(?:while|if) .*(?:>|<) -?(?:\w+\.)?pi", text
     ):
         return
     aimed = {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
         if called(value) & {"atan2", "arctan2"} and isinstance(target, ast.Name)
     }
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub):
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Sub):
             continue
-        direction = called(node.left) & {"atan2", "arctan2"} or ast.unparse(node.left) in aimed
-        if HEADING.search(ast.unparse(node.right)) and direction:
+        direction = called(node.left) & {"atan2", "arctan2"} or unparse(node.left) in aimed
+        if HEADING.search(unparse(node.right)) and direction:
             yield (
                 node.lineno,
                 "wrap",
-                f"{ast.unparse(node)[:60]} is not brought between -pi and pi, so the robot may turn the long way round",
+                f"{unparse(node)[:60]} is not brought between -pi and pi, so the robot may turn the long way round",
             )
 
 
 def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find the sum or difference of an angle in degrees and the direction that atan2 returns."""
     values = list(assigned(tree))
-    in_degrees = {ast.unparse(target) for target, value in values if _in_degrees(value)}
-    in_radians = {ast.unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Sub | ast.Add):
+    in_degrees = {unparse(target) for target, value in values if _in_degrees(value)}
+    in_radians = {unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Sub | ast.Add):
             continue
         for one, other in ((node.left, node.right), (node.right, node.left)):
-            degrees = ast.unparse(one) in in_degrees or _in_degrees(one)
-            radians = ast.unparse(other) in in_radians or _of_atan2(other)
+            degrees = unparse(one) in in_degrees or _in_degrees(one)
+            radians = unparse(other) in in_radians or _of_atan2(other)
             if degrees and radians:
                 yield (
                     node.lineno,
                     "angle",
-                    f"`{ast.unparse(node)[:70]}`: {ast.unparse(one)[:40]} is in degrees, and {ast.unparse(other)[:40]} "
+                    f"`{unparse(node)[:70]}`: {unparse(one)[:40]} is in degrees, and {unparse(other)[:40]} "
                     "in radians; both must be in one unit, and the sines of Python and ROS's messages take radians",
                 )
 
@@ -220,7 +229,7 @@ def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 value.lineno,
                 "angle",
-                f"{ast.unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
+                f"{unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
                 "radians; both must be in one unit",
             )
 
@@ -230,7 +239,7 @@ def _is_call(node: ast.AST) -> bool:
 
 
 def _of_quaternion(node: ast.AST) -> bool:
-    parts = {each.attr for each in walk(node) if isinstance(each, ast.Attribute)}
+    parts = {each.attr for each in nodes_of(node, ast.Attribute)}
     return {"z", "w"} <= parts
 
 
@@ -238,12 +247,12 @@ def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in radians that is compared with a number above pi, in a file that makes no degrees."""
     if called(tree) & (TO_DEGREES | TO_RADIANS) or not called(tree) & {"atan2", "arctan2"}:
         return
-    numbers = [each.value for each in walk(tree) if isinstance(each, ast.Constant)]
+    numbers = [each.value for each in nodes_of(tree, ast.Constant)]
     if any(each in (180, 360, 57.3, 57.29578) for each in numbers if isinstance(each, int | float)):
         return
     known = named_numbers(tree)
-    for node in walk(tree):
-        if not isinstance(node, ast.Compare) or len(node.ops) != 1:
+    for node in nodes_of(tree, ast.Compare):
+        if len(node.ops) != 1:
             continue
         left = node.left
         if isinstance(left, ast.Call) and last_name(left.func) in ("abs", "fabs") and left.args:
@@ -254,7 +263,7 @@ def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "angle",
-                f"`{ast.unparse(node)[:60]}`: an angle in radians is at most 3.14, and {limit:g} degrees are "
+                f"`{unparse(node)[:60]}`: an angle in radians is at most 3.14, and {limit:g} degrees are "
                 f"{math.radians(limit):.2g}",
             )
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse, walk
 
 RATE = re.compile(r"\btwist\.(?:twist\.)?angular\.z")
 REST = "the pose of /odom is exact here: take it as it comes"
@@ -15,19 +15,19 @@ REST = "the pose of /odom is exact here: take it as it comes"
 
 def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.yaw += message.twist.twist.angular.z * dt` in a callback of odometry."""
-    if "Odometry" not in ast.unparse(tree):
+    if "Odometry" not in unparse(tree):
         return
     for function in functions(tree):
-        twists = {ast.unparse(one) for one, value in assigned(function) if ast.unparse(value).endswith(".twist.twist")}
-        rates = {ast.unparse(one) for one, value in assigned(function) if RATE.search(ast.unparse(value))}
+        twists = {unparse(one) for one, value in assigned(function) if unparse(value).endswith(".twist.twist")}
+        rates = {unparse(one) for one, value in assigned(function) if RATE.search(unparse(value))}
         rates |= {f"{name}.angular.z" for name in twists}
-        for node in (each for each in walk(function) if isinstance(each, ast.AugAssign)):
-            parts = {ast.unparse(each) for each in walk(node.value)}
-            if isinstance(node.op, ast.Add) and (RATE.search(ast.unparse(node.value)) or parts & rates):
+        for node in nodes_of(function, ast.AugAssign):
+            parts = {unparse(each) for each in walk(node.value)}
+            if isinstance(node.op, ast.Add) and (RATE.search(unparse(node.value)) or parts & rates):
                 yield (
                     node.lineno,
                     "heading",
-                    f"{ast.unparse(node)[:60]} adds up turning rates: it begins at 0 wherever the robot looks, and it "
+                    f"{unparse(node)[:60]} adds up turning rates: it begins at 0 wherever the robot looks, and it "
                     "is as wrong as the time between messages that it takes for granted; the heading is 2 * "
                     "atan2(orientation.z, orientation.w)",
                 )
@@ -37,7 +37,7 @@ def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
     """Find the mean of an old pose and a new one, by which the robot seems to be where it was."""
     known = named_numbers(tree)
     for function in functions(tree):
-        if ".pose.pose" not in ast.unparse(function):
+        if ".pose.pose" not in unparse(function):
             continue
         for target, value in assigned(function):
             for node in walk(value):
@@ -52,18 +52,18 @@ def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
                             a is not None
                             and b is not None
                             and abs(a + b - 1) < 1e-6
-                            and ast.unparse(target) in _used(value)
+                            and unparse(target) in _used(value)
                         ):
                             yield (
                                 node.lineno,
                                 "pose",
-                                f"{ast.unparse(node)[:60]} averages the pose with older ones, so it lags behind the "
+                                f"{unparse(node)[:60]} averages the pose with older ones, so it lags behind the "
                                 f"robot, and the walls and the steering with it; {REST}",
                             )
 
 
 def _used(value: ast.expr) -> set[str]:
-    return {ast.unparse(each) for each in walk(value) if isinstance(each, ast.Attribute | ast.Name)}
+    return {unparse(each) for each in nodes_of(value, ast.Attribute, ast.Name)}
 
 
 def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
@@ -78,31 +78,29 @@ def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
                 pass
             case _:
                 continue
-        if re.fullmatch(r"(?:math\.|np\.|numpy\.)?pi", ast.unparse(divisor)):
+        if re.fullmatch(r"(?:math\.|np\.|numpy\.)?pi", unparse(divisor)):
             yield (
                 node.lineno,
                 "angle",
-                f"{ast.unparse(node)[:60]} takes away half turns, so what is behind seems to be ahead: a whole turn is "
+                f"{unparse(node)[:60]} takes away half turns, so what is behind seems to be ahead: a whole turn is "
                 "2 * pi",
             )
 
 
 def heading_of_a_position(tree: ast.AST) -> Iterator[Suspect]:
     """Find `atan2(p.y, p.x)` of a position of /odom: the direction from the origin to the robot."""
-    positions = {
-        ast.unparse(one) for one, value in assigned(tree) if ast.unparse(value).endswith(".pose.pose.position")
-    }
+    positions = {unparse(one) for one, value in assigned(tree) if unparse(value).endswith(".pose.pose.position")}
     for node in walk(tree):
         match node:
             case ast.Call(args=[ast.Attribute(value=one, attr="y"), ast.Attribute(value=other, attr="x")]):
-                whole = ast.unparse(one)
-                if whole != ast.unparse(other) or not re.search(r"atan2$|arctan2$", ast.unparse(node.func)):
+                whole = unparse(one)
+                if whole != unparse(other) or not re.search(r"atan2$|arctan2$", unparse(node.func)):
                     continue
                 if whole in positions or whole.endswith(".pose.pose.position"):
                     yield (
                         node.lineno,
                         "heading",
-                        f"{ast.unparse(node)[:60]} is the direction from the origin to the robot, not where the robot "
+                        f"{unparse(node)[:60]} is the direction from the origin to the robot, not where the robot "
                         "looks: the heading is 2 * atan2(orientation.z, orientation.w)",
                     )
 

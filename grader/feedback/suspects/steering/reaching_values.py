@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import functions, last_name, nodes_of, unparse, walk
 from gz_course.grader.feedback.slips.language.own_calls import calls_of_own, parameters
 
 Path = tuple[int, ...]
@@ -26,13 +26,13 @@ class ReachingValues:
 
     def of(self, name: ast.expr, function: ast.FunctionDef) -> list[At]:
         """Return all that a name may hold where it is read; nothing if no assignment says it."""
-        text, paths = ast.unparse(name), self._paths[function.name]
+        text, paths = unparse(name), self._paths[function.name]
         before = [
             node
             for node in paths
             if isinstance(node, ast.Assign | ast.AugAssign | ast.AnnAssign)
             and node.lineno < name.lineno
-            and any(ast.unparse(each) == text for each in _targets(node))
+            and any(unparse(each) == text for each in _targets(node))
         ]
         before.sort(key=lambda node: node.lineno)
         read = next((path for node, path in reversed(paths.items()) if _holds(node, name)), ())
@@ -49,8 +49,8 @@ class ReachingValues:
     def returned(self, function: ast.FunctionDef, place: int | None = None) -> list[At]:
         """Return what a function of the file returns, or the item at a place of each tuple."""
         found: list[At] = []
-        for node in walk(function):
-            if not isinstance(node, ast.Return) or node.value is None:
+        for node in nodes_of(function, ast.Return):
+            if node.value is None:
                 continue
             value = node.value
             if place is not None and isinstance(value, ast.Tuple) and place < len(value.elts):
@@ -70,10 +70,10 @@ class ReachingValues:
             yield ast.copy_location(ast.BinOp(old, node.op, node.value), node), function
             return
         for target in node.targets if isinstance(node, ast.Assign) else [node.target]:  # type: ignore[attr-defined]
-            if ast.unparse(target) == text:
+            if unparse(target) == text:
                 yield value, function
-            elif isinstance(target, ast.Tuple) and text in map(ast.unparse, target.elts):
-                place = [ast.unparse(each) for each in target.elts].index(text)
+            elif isinstance(target, ast.Tuple) and text in map(unparse, target.elts):
+                place = [unparse(each) for each in target.elts].index(text)
                 if isinstance(value, ast.Tuple) and len(value.elts) == len(target.elts):
                     yield value.elts[place], function
                 elif own := self.own.get(last_name(_function(value))):
@@ -82,7 +82,7 @@ class ReachingValues:
     def _given(self, text: str, function: ast.FunctionDef) -> Iterator[At]:
         """Yield what the calls of a function in the file pass for one of its parameters."""
         if text.startswith("self.") and any(
-            text in map(ast.unparse, _targets(node)) for node in walk(self.tree) if isinstance(node, ast.stmt)
+            text in map(unparse, _targets(node)) for node in nodes_of(self.tree, ast.stmt)
         ):
             raise UnknownValueError  # another function sets it
         if text not in parameters(function) or text == "self":
@@ -129,7 +129,5 @@ def _holds(statement: ast.stmt, name: ast.expr) -> bool:
 
 def _limits(node: ast.If, text: str) -> bool:
     """Say whether an `if` compares a name, and sets it."""
-    compared = any(ast.unparse(each) == text for each in walk(node.test))
-    return compared and any(
-        text in map(ast.unparse, _targets(each)) for each in walk(node) if isinstance(each, ast.stmt)
-    )
+    compared = any(unparse(each) == text for each in walk(node.test))
+    return compared and any(text in map(unparse, _targets(each)) for each in nodes_of(node, ast.stmt))

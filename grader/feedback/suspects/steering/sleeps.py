@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, called, calls, functions, last_name, nodes_of, unparse
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 SLEEPS = frozenset({"sleep", "sleep_for", "sleep_until"})
@@ -26,16 +26,16 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 call.lineno,
                 "sleep",
-                f"{ast.unparse(call)[:60]} sleeps in a callback ({function.name}): meanwhile the node hears no scan "
+                f"{unparse(call)[:60]} sleeps in a callback ({function.name}): meanwhile the node hears no scan "
                 "and no odometry, and no timer fires, so it continues with old values; publish a command and return, "
                 "and look again in the next call",
             )
-        for loop in (each for each in walk(function) if isinstance(each, ast.While)):
+        for loop in nodes_of(function, ast.While):
             if called(loop.test) & CLOCKS and not called(loop) & (SLEEPS | {"spin_once"}):
                 yield (
                     loop.lineno,
                     "sleep",
-                    f"the loop `while {ast.unparse(loop.test)[:60]}` waits in a callback ({function.name}): meanwhile "
+                    f"the loop `while {unparse(loop.test)[:60]}` waits in a callback ({function.name}): meanwhile "
                     "the node hears nothing, and no timer fires; return, and look again in the next call",
                 )
 
@@ -51,7 +51,7 @@ def reached(tree: ast.AST) -> list[ast.FunctionDef]:
             names += [
                 last_name(call.func)
                 for call, _ in calls(own[name])
-                if isinstance(call.func, ast.Name) or ast.unparse(call.func).startswith("self.")
+                if isinstance(call.func, ast.Name) or unparse(call.func).startswith("self.")
             ]
     return list(found.values())
 

@@ -7,7 +7,16 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 MANY = 8  # values of a mean
 MEANS = ("mean", "fmean", "average", "median", "sum", "nanmean", "nanmedian")
@@ -21,34 +30,34 @@ WORDS = (
 
 def means_over_time(tree: ast.Module) -> Iterator[Suspect]:
     """Find the mean of the last values that an attribute keeps from scan to scan."""
-    if "angular.z" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
     sizes = _sizes(tree)
     for call, name in calls(tree):
         if name not in MEANS:
             continue
         of = [call.func.value] if isinstance(call.func, ast.Attribute) and not call.args else call.args[:1]
-        read = [ast.unparse(each) for given in of for each in walk(given) if isinstance(each, ast.Attribute)]
+        read = [unparse(each) for given in of for each in nodes_of(given, ast.Attribute)]
         kept = next((each for each in read if sizes.get(each, 0) >= MANY), "")
         if kept:
-            yield call.lineno, "delay", f"{ast.unparse(call)[:60]}, of the last {sizes[kept]:g} values, {WORDS}"
+            yield call.lineno, "delay", f"{unparse(call)[:60]}, of the last {sizes[kept]:g} values, {WORDS}"
 
 
 def _sizes(tree: ast.Module) -> dict[str, float]:
     """Return how many values each attribute that collects some keeps at most, as far as that is written."""
     known, found = named_numbers(tree), {}
     kept = {
-        ast.unparse(call.func.value)
+        unparse(call.func.value)
         for call, name in calls(tree)
         if name in ADDS and isinstance(call.func, ast.Attribute) and isinstance(call.func.value, ast.Attribute)
     }
-    text = ast.unparse(tree)
+    text = unparse(tree)
     for target, _ in assigned(tree):  # an array that is filled in turn
-        if isinstance(target, ast.Subscript) and ("%" in ast.unparse(target.slice) or "roll(" in text):
-            kept.add(ast.unparse(target.value))
+        if isinstance(target, ast.Subscript) and ("%" in unparse(target.slice) or "roll(" in text):
+            kept.add(unparse(target.value))
     for target, value in assigned(tree):
-        name = ast.unparse(target)
-        if isinstance(target, ast.Attribute) and isinstance(value, ast.Subscript) and name in ast.unparse(value.value):
+        name = unparse(target)
+        if isinstance(target, ast.Attribute) and isinstance(value, ast.Subscript) and name in unparse(value.value):
             if isinstance(value.slice, ast.Slice) and value.slice.lower is not None:
                 last = number(value.slice.lower, known)  # self.x = (self.x + [new])[-15:]
                 found[name] = -last if last is not None and last < 0 else None
@@ -61,9 +70,9 @@ def _sizes(tree: ast.Module) -> dict[str, float]:
                     found[name] = number(size, known)
                 case ast.BinOp(left=ast.List(), op=ast.Mult(), right=size):
                     found[name] = number(size, known)
-    for node in walk(tree):
-        if isinstance(node, ast.Compare) and re.match(r"len\((.+)\)$", ast.unparse(node.left)):
-            name = ast.unparse(node.left)[4:-1]
+    for node in nodes_of(tree, ast.Compare):
+        if re.match(r"len\((.+)\)$", unparse(node.left)):
+            name = unparse(node.left)[4:-1]
             if name in kept:
                 found[name] = number(node.comparators[0], known)
     return {name: size for name, size in found.items() if size is not None}
@@ -71,51 +80,51 @@ def _sizes(tree: ast.Module) -> dict[str, float]:
 
 def moving_averages(tree: ast.Module) -> Iterator[Suspect]:
     """Find an attribute of which most is kept from scan to scan: `self.x = 0.95 * self.x + 0.05 * new` and the like."""
-    if "angular.z" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
     known = named_numbers(tree)
     for function in functions(tree):
-        stored = {ast.unparse(value): ast.unparse(target) for target, value in assigned(function)}
+        stored = {unparse(value): unparse(target) for target, value in assigned(function)}
         asked = {
             text
             for target, value in assigned(function)
-            if "get_parameter(" in ast.unparse(value) and "distance" in ast.unparse(value)
-            for text in (ast.unparse(target), ast.unparse(value))
-        } | {ast.unparse(call) for call, name in calls(function) if name == "get_parameter"}
+            if "get_parameter(" in unparse(value) and "distance" in unparse(value)
+            for text in (unparse(target), unparse(value))
+        } | {unparse(call) for call, name in calls(function) if name == "get_parameter"}
         for node in walk(function):
             if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
-                name, share = ast.unparse(node.target), _share_of_step(node.value, ast.unparse(node.target), known)
+                name, share = unparse(node.target), _share_of_step(node.value, unparse(node.target), known)
             elif isinstance(node, ast.Assign) and len(node.targets) == 1:
-                name = ast.unparse(node.targets[0])
+                name = unparse(node.targets[0])
                 name = name if name.startswith("self.") else stored.get(name, "")  # new = ...; self.x = new
                 share = _share(node.value, name, known)
             else:
                 continue
             if share is None or not 0 < share <= LITTLE or not name.startswith("self."):
                 continue
-            if asked & {ast.unparse(each) for each in walk(node.value) if isinstance(each, ast.Name | ast.Call)}:
+            if asked & {unparse(each) for each in nodes_of(node.value, ast.Name, ast.Call)}:
                 yield (
                     node.lineno,
                     "seldom distance",
-                    f"{ast.unparse(node)[:70]} lets a new value of the parameter take effect over many scans, and it "
+                    f"{unparse(node)[:70]} lets a new value of the parameter take effect over many scans, and it "
                     "must at once: use the parameter itself",
                 )
             else:
-                yield node.lineno, "delay", f"{ast.unparse(node)[:70]} {WORDS}"
+                yield node.lineno, "delay", f"{unparse(node)[:70]} {WORDS}"
 
 
 def _share(value: ast.expr, name: str, known: dict[str, int | float]) -> float | None:
     """Return the weight of what is new in a value that is made of it and of `name`; None for anything else."""
     match value:
         case ast.BinOp(op=ast.Add(), left=left, right=right):
-            if ast.unparse(left) == name:
+            if unparse(left) == name:
                 return _share_of_step(right, name, known)
             return _weight(left, right, name, known) or _weight(right, left, name, known)
         case ast.BinOp(op=ast.Div(), left=ast.BinOp(op=ast.Add(), left=left, right=right), right=whole):
             total = number(whole, known)  # (19 * self.x + new) / 20
             for old, new in ((left, right), (right, left)):
                 factor = _factor(old, name, known)
-                if total and factor is not None and name not in ast.unparse(new) and abs(total - factor - 1) < 1e-6:
+                if total and factor is not None and name not in unparse(new) and abs(total - factor - 1) < 1e-6:
                     return 1 / total
     return None
 
@@ -125,7 +134,7 @@ def _share_of_step(product: ast.expr, name: str, known: dict[str, int | float]) 
     if not isinstance(product, ast.BinOp) or not isinstance(product.op, ast.Mult | ast.Div):
         return None
     for factor, step in ((product.left, product.right), (product.right, product.left)):
-        if isinstance(step, ast.BinOp) and isinstance(step.op, ast.Sub) and ast.unparse(step.right) == name:
+        if isinstance(step, ast.BinOp) and isinstance(step.op, ast.Sub) and unparse(step.right) == name:
             share = number(factor, known)
             if isinstance(product.op, ast.Mult):
                 return share
@@ -138,7 +147,7 @@ def _factor(product: ast.expr, name: str, known: dict[str, int | float]) -> floa
     if not isinstance(product, ast.BinOp) or not isinstance(product.op, ast.Mult):
         return None
     pairs = ((product.left, product.right), (product.right, product.left))
-    return next((number(factor, known) for factor, held in pairs if ast.unparse(held) == name), None)
+    return next((number(factor, known) for factor, held in pairs if unparse(held) == name), None)
 
 
 def _weight(old: ast.expr, new: ast.expr, name: str, known: dict[str, int | float]) -> float | None:
@@ -152,26 +161,27 @@ def _weight(old: ast.expr, new: ast.expr, name: str, known: dict[str, int | floa
 
 def delay_lines(tree: ast.Module) -> Iterator[Suspect]:
     """Find the oldest of many values, taken where the newest is meant: `self.last.popleft()`, `self.last[0]`."""
-    if "angular.z" not in ast.unparse(tree) or "LaserScan" not in ast.unparse(tree):
+    if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
-    text, sizes = ast.unparse(tree), _sizes(tree)
-    for node in walk(tree):
-        value = node.value if isinstance(node, ast.Assign) else None
+    text, sizes = unparse(tree), _sizes(tree)
+    for node in nodes_of(tree, ast.Assign):
+        value = node.value
         value = value.body if isinstance(value, ast.IfExp) else value
         oldest = ""
         match value:
             case ast.Call(func=ast.Attribute(value=kept, attr="popleft"), args=[]):
-                oldest = ast.unparse(kept)
+                oldest = unparse(kept)
             case ast.Call(func=ast.Attribute(value=kept, attr="pop"), args=[ast.Constant(value=0)]):
-                oldest = ast.unparse(kept)
+                oldest = unparse(kept)
             case ast.Subscript(value=kept, slice=ast.Constant(value=0)):
-                oldest = ast.unparse(kept)
-        newer = any(part in text for part in (f"{oldest}[-1]", f"{oldest}.appendleft", f"{oldest}.insert"))
-        if value is not None and sizes.get(oldest, 0) >= MANY // 2 and not newer:
+                oldest = unparse(kept)
+        if sizes.get(oldest, 0) < MANY // 2:
+            continue
+        if not any(part in text for part in (f"{oldest}[-1]", f"{oldest}.appendleft", f"{oldest}.insert")):
             yield (
                 value.lineno,
                 "delay",
-                f"{ast.unparse(value)[:60]} is the oldest of {sizes[oldest]:g} values, so the robot answers what the "
+                f"{unparse(value)[:60]} is the oldest of {sizes[oldest]:g} values, so the robot answers what the "
                 "lidar saw that many scans ago, turns too late, and swings; use the newest",
             )
 

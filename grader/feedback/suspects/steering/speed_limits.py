@@ -5,14 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, last_name, unparse, walk
 
 LIMITING = ("min", "minimum", "clip", "clamp", "limited", "limit")
 
 
 def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
     """Find a `max` of the parameter speed_limit and a speed, where no `min` or other function limits the result."""
-    if "speed_limit" not in ast.unparse(tree):
+    if "speed_limit" not in unparse(tree):
         return
     names = limit_names(tree)
     inside = {id(node) for call, name in calls(tree) if name in LIMITING for given in call.args for node in walk(given)}
@@ -20,18 +20,18 @@ def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
         if name not in ("max", "maximum") or len(call.args) != 2 or id(call) in inside:
             continue
         for limit in call.args:
-            if reads_limit(limit) or ast.unparse(limit) in names:
+            if reads_limit(limit) or unparse(limit) in names:
                 yield (
                     call.lineno,
                     "speed limit",
-                    f"{ast.unparse(call)[:60]} is {ast.unparse(limit)[:40]} at least; what limits a speed is min(...)",
+                    f"{unparse(call)[:60]} is {unparse(limit)[:40]} at least; what limits a speed is min(...)",
                 )
 
 
 def limit_names(tree: ast.AST) -> set[str]:
     """Return the names and attributes that are given the value of the parameter speed_limit."""
     return {
-        ast.unparse(target)
+        unparse(target)
         for target, value in assigned(tree)
         if isinstance(target, ast.Name | ast.Attribute) and reads_limit(value)
     }

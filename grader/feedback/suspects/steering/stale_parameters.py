@@ -19,7 +19,7 @@ from gz_course.grader.feedback.facts.ros_parameters import (
     owners,
     reads,
 )
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, last_name, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, last_name, nodes_of, unparse, walk
 
 SLOW = 0.5  # [s] period of a timer that reads parameters too seldom
 TYPES = {float: "DOUBLE", int: "INTEGER", str: "STRING", bool: "BOOL"}
@@ -28,7 +28,7 @@ TYPE = frozenset({*TYPES.values(), "DOUBLE_ARRAY", "INTEGER_ARRAY", "STRING_ARRA
 
 def stale(tree: ast.Module) -> Iterator[Suspect]:
     """Find, for each parameter that is declared, why a new value would not be used."""
-    text, known = ast.unparse(tree), declared(tree)
+    text, known = unparse(tree), declared(tree)
     if not known or "angular.z" not in text or "LaserScan" not in text or "/parameter_events" in text:
         return
     inside, start, heard = owners(tree), only_at_the_start(tree), listeners(tree)
@@ -36,7 +36,7 @@ def stale(tree: ast.Module) -> Iterator[Suspect]:
     unnamed = [call for call, name in found if not name]  # which may read any of them
     if unnamed:
         if not heard and all(inside[id(call)] in start - {MODULE} for call, _ in found):
-            once = f"{ast.unparse(unnamed[0])[:60]} is read only once, in {inside[id(unnamed[0])]}"
+            once = f"{unparse(unnamed[0])[:60]} is read only once, in {inside[id(unnamed[0])]}"
             words = f"{once}; read parameters in each callback of a scan"
             yield from ((unnamed[0].lineno, f"parameter {name}", words) for name in known)
         return
@@ -70,7 +70,7 @@ def _seldom(tree: ast.Module, later: list[tuple[ast.Call, str]]) -> tuple[int, s
         return None
     call, function = later[0]
     return call.lineno, (
-        f"{ast.unparse(call)[:60]} is read every {slow[function]:g} s only, by a timer, so a new value takes effect "
+        f"{unparse(call)[:60]} is read every {slow[function]:g} s only, by a timer, so a new value takes effect "
         "late; read it in each callback of a scan"
     )
 
@@ -79,7 +79,7 @@ def _once(where: list[tuple[ast.Call, str]], name: str, line: int, inside: dict[
     if where:
         call, function = where[0]
         place = "when the file is loaded" if function == MODULE else f"in {function}"
-        return call.lineno, f"{ast.unparse(call)[:60]} is read only once, {place}; read it in each callback of a scan"
+        return call.lineno, f"{unparse(call)[:60]} is read only once, {place}; read it in each callback of a scan"
     return line, (
         f"the parameter {name} is declared here, and nothing reads it later: read it in each callback of a scan, "
         f"self.get_parameter({name!r}).value"
@@ -90,11 +90,11 @@ def _kept(tree: ast.Module, name: str, inside: dict[int, str], start: set[str]) 
     """Find an attribute that keeps the first value of a parameter for good, or one that keeps it and is never read."""
     stores: dict[str, list[tuple[ast.expr, ast.expr]]] = {}
     for target, value in assigned(tree):
-        stores.setdefault(ast.unparse(target), []).append((target, value))
+        stores.setdefault(unparse(target), []).append((target, value))
     loads = {
-        ast.unparse(node): inside[id(node)]
-        for node in walk(tree)
-        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and inside[id(node)] not in start
+        unparse(node): inside[id(node)]
+        for node in nodes_of(tree, ast.Attribute)
+        if isinstance(node.ctx, ast.Load) and inside[id(node)] not in start
     }
     for kept, given in stores.items():
         of = [value for _, value in given if _is_value_of(value, name)]
@@ -103,7 +103,7 @@ def _kept(tree: ast.Module, name: str, inside: dict[int, str], start: set[str]) 
         once = all(inside[id(target)] in start for target, _ in given)
         if once and kept in loads:
             return of[0].lineno, (
-                f"{kept} = {ast.unparse(of[0])[:60]} is read only once, in {inside[id(of[0])]}, and {loads[kept]}() "
+                f"{kept} = {unparse(of[0])[:60]} is read only once, in {inside[id(of[0])]}, and {loads[kept]}() "
                 "keeps that value; read the parameter there"
             )
         if kept not in loads and not once:
@@ -128,7 +128,7 @@ def _sets_back(tree: ast.AST, name: str, inside: dict[int, str], start: set[str]
             continue
         if any(isinstance(each, ast.Constant) and each.value == name for each in walk(call)):
             return call.lineno, (
-                f"{ast.unparse(call)[:70]} sets {name} back in each {inside[id(call)]}(): whatever somebody else has "
+                f"{unparse(call)[:70]} sets {name} back in each {inside[id(call)]}(): whatever somebody else has "
                 "set is lost"
             )
     return None
@@ -140,26 +140,26 @@ def _not_heard(
     """Find a callback for changes that passes over a parameter."""
     single = members(function)
     asked: set[str] = set()
-    for node in (each for each in walk(function) if isinstance(each, ast.Compare)):
+    for node in nodes_of(function, ast.Compare):
         if last_name(node.left) == "name":
-            asked |= {str(each.value) for each in walk(node.comparators[0]) if isinstance(each, ast.Constant)}
-    code = ast.unparse(function)
+            asked |= {str(each.value) for each in nodes_of(node.comparators[0], ast.Constant)}
+    code = unparse(function)
     if asked and name not in asked and name not in code and "else" not in code and single:
         shown = ", ".join(sorted(asked))
         return function.lineno, f"{function.name}() asks for {shown} alone, so a new {name} is passed over"
-    for test in (each for each in walk(function) if isinstance(each, ast.If)):
+    for test in nodes_of(function, ast.If):
         if any(isinstance(each, ast.Constant) and each.value == name for each in walk(test.test)):
             for target, value in assigned(ast.Module(test.body, [])):
-                kept = ast.unparse(target)
-                if kept.startswith("self.") and ast.unparse(value).endswith(".value") and not _is_read(tree, kept):
+                kept = unparse(target)
+                if kept.startswith("self.") and unparse(value).endswith(".value") and not _is_read(tree, kept):
                     return value.lineno, f"{kept} keeps the new value of {name}, and nothing reads {kept} later"
     kind = TYPES.get(type(default.value)) if isinstance(default, ast.Constant) else None
-    for test in (each for each in walk(function) if isinstance(each, ast.If)):
-        about = {str(each.value) for each in walk(test.test) if isinstance(each, ast.Constant)}
+    for test in nodes_of(function, ast.If):
+        about = {str(each.value) for each in nodes_of(test.test, ast.Constant)}
         types = {last_name(each) for each in walk(test.test)} & TYPE
         if kind and name in about and types and kind not in types:
             return test.lineno, (
-                f"{ast.unparse(test.test)[:80]} asks for the type {', '.join(sorted(types))}, and {name} is declared "
+                f"{unparse(test.test)[:80]} asks for the type {', '.join(sorted(types))}, and {name} is declared "
                 f"as a {kind}, so its new value is passed over"
             )
     return None
@@ -180,14 +180,14 @@ def _only_while_none(tree: ast.AST, later: list[ast.Call]) -> tuple[int, str] | 
         return None
     found: tuple[int, str] | None = None
     guarded: set[int] = set()
-    for test in (each for each in walk(tree) if isinstance(each, ast.If)):
+    for test in nodes_of(tree, ast.If):
         asked = _guard(test.test)
         if not asked:
             continue
         body = [each for statement in test.body for each in walk(statement)]
         sets = any(
             isinstance(each, ast.Assign)
-            and asked in [ast.unparse(one) for target in each.targets for one in _parts(target)]
+            and asked in [unparse(one) for target in each.targets for one in _parts(target)]
             for each in body
         )
         there = [call for call in later if any(each is call for each in body)]
@@ -195,7 +195,7 @@ def _only_while_none(tree: ast.AST, later: list[ast.Call]) -> tuple[int, str] | 
             guarded |= {id(call) for call in there}
             found = found or (
                 there[0].lineno,
-                f"{ast.unparse(there[0])[:60]} is read only once, in the block of  if {ast.unparse(test.test)[:60]}: "
+                f"{unparse(there[0])[:60]} is read only once, in the block of  if {unparse(test.test)[:60]}: "
                 "read it each time",
             )
     return found if found and guarded >= {id(call) for call in later} else None
@@ -207,11 +207,11 @@ def _parts(target: ast.expr) -> list[ast.expr]:
 
 def _guard(test: ast.expr) -> str:
     """Return the attribute of `self.x is None`, `not self.x` and `self.first`; empty for another test."""
-    if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and ast.unparse(test.comparators[0]) == "None":
+    if isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.Is) and unparse(test.comparators[0]) == "None":
         test = test.left
     elif isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not):
         test = test.operand
-    text = ast.unparse(test)
+    text = unparse(test)
     return text if isinstance(test, ast.Attribute) and text.startswith("self.") else ""
 
 

@@ -6,23 +6,23 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, nodes_of, unparse, walk
 
 NEAREST = re.compile(r"\b(?:min|nanmin|amin)\((?:\w+\.)*ranges\)|\.ranges\)?\.min\(\)|\bmin\(\w+(?:\.\w+)*\.ranges\)")
 
 
 def stops_for_all_sides(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if min(scan.ranges) < 0.5: command.linear.x = 0.0`, where the test is true for what is behind, too."""
-    nearest = {ast.unparse(one) for one, value in assigned(tree) if NEAREST.search(ast.unparse(value))}
-    for node in (each for each in walk(tree) if isinstance(each, ast.If)):
-        test = ast.unparse(node.test)
-        parts = {ast.unparse(each) for each in walk(node.test)}
+    nearest = {unparse(one) for one, value in assigned(tree) if NEAREST.search(unparse(value))}
+    for node in nodes_of(tree, ast.If):
+        test = unparse(node.test)
+        parts = {unparse(each) for each in walk(node.test)}
         if " < " not in test or not (NEAREST.search(test) or parts & nearest):
             continue
         body = ast.Module(body=node.body, type_ignores=[])
-        given = {ast.unparse(one): ast.unparse(value) for one, value in assigned(body)}
+        given = {unparse(one): unparse(value) for one, value in assigned(body)}
         stops = any(one.endswith("linear.x") and value in ("0", "0.0") for one, value in given.items())
-        if (stops or "Twist()" in ast.unparse(body)) and not any(one.endswith("angular.z") for one in given):
+        if (stops or "Twist()" in unparse(body)) and not any(one.endswith("angular.z") for one in given):
             more = "" if called(body) - {"Twist", "publish"} else ", and as long as it stands nothing changes"
             yield (
                 node.lineno,

@@ -10,7 +10,16 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.ros_parameters import reads
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, last_name, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Suspect,
+    assigned,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 
 TO_DEGREES, TO_RADIANS = frozenset({"degrees", "rad2deg"}), frozenset({"radians", "deg2rad"})
 ENDS = TO_RADIANS | {"cos", "sin", "tan", "len", "range", "print", "isfinite"}  # what degrees do not get through
@@ -23,7 +32,7 @@ HUNDREDS = (100, 1000, 0.01, 0.001)
 
 
 def _steers(tree: ast.AST) -> bool:
-    text = ast.unparse(tree)
+    text = unparse(tree)
     return "angular.z" in text and "LaserScan" in text
 
 
@@ -39,9 +48,9 @@ def degrees_in_gains(tree: ast.Module) -> Iterator[Suspect]:
             _columns(function, names, known, columns)
             for target, value in assigned(function):
                 if line := _degrees(value, names, known):
-                    names.setdefault(ast.unparse(target), line)
+                    names.setdefault(unparse(target), line)
         for target, value in assigned(function):
-            if ast.unparse(target).endswith("angular.z") and (line := _degrees(value, names, known)):
+            if unparse(target).endswith("angular.z") and (line := _degrees(value, names, known)):
                 yield (
                     line,
                     "degrees",
@@ -61,17 +70,17 @@ def _columns(
             items = call.args[0].elts if isinstance(call.args[0], ast.Tuple) else [call.args[0]]
             for place, item in enumerate(items):
                 if line := _degrees(item, names, known):
-                    columns.setdefault(ast.unparse(call.func.value), {})[place] = line
-    for loop in (node for node in walk(function) if isinstance(node, ast.For | ast.comprehension)):
+                    columns.setdefault(unparse(call.func.value), {})[place] = line
+    for loop in nodes_of(function, ast.For, ast.comprehension):
         items = loop.target.elts if isinstance(loop.target, ast.Tuple) else [loop.target]
-        for place, line in columns.get(ast.unparse(loop.iter), {}).items():
+        for place, line in columns.get(unparse(loop.iter), {}).items():
             if place < len(items):
-                names.setdefault(ast.unparse(items[place]), line)
+                names.setdefault(unparse(items[place]), line)
 
 
 def _degrees(node: ast.expr, names: dict[str, int], known: dict[str, Number]) -> int:
     """Return the line that makes the degrees an expression is in; 0 if it is in none, or in too small a share."""
-    text = ast.unparse(node)
+    text = unparse(node)
     if isinstance(node, ast.Name | ast.Attribute) and text in names:
         return names[text]
     if isinstance(node, ast.Compare | ast.Constant | ast.Name):
@@ -109,8 +118,8 @@ def centimetres(tree: ast.Module) -> Iterator[Suspect]:
     if not _steers(tree):
         return
     known, asked = named_numbers(tree), {id(call) for call, _ in reads(tree)}
-    for node in walk(tree):
-        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult | ast.Div):
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Mult | ast.Div):
             continue
         factor, other = number(node.right, known), node.left
         if factor is None and isinstance(node.op, ast.Mult):
@@ -119,7 +128,7 @@ def centimetres(tree: ast.Module) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "unit",
-                f"{ast.unparse(node)[:70]} is in another unit than metres, which the parameter and all ranges are in",
+                f"{unparse(node)[:70]} is in another unit than metres, which the parameter and all ranges are in",
             )
 
 
@@ -127,19 +136,19 @@ def gains_behind_limits(tree: ast.Module) -> Iterator[Suspect]:
     """Find a rate that is limited first and then multiplied by a gain, or has something added, on its way out."""
     known = named_numbers(tree)
     for function in functions(tree):
-        limited = {ast.unparse(target) for target, value in assigned(function) if _is_limited(value, known)}
-        values = {ast.unparse(target): value for target, value in assigned(function)}
-        for node in walk(function):
-            if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Mult):
+        limited = {unparse(target) for target, value in assigned(function) if _is_limited(value, known)}
+        values = {unparse(target): value for target, value in assigned(function)}
+        for node in nodes_of(function, ast.BinOp):
+            if not isinstance(node.op, ast.Mult):
                 continue
             for one, other in ((node.left, node.right), (node.right, node.left)):
                 gain = number(other, known)
-                inside = _is_limited(one, known) or ast.unparse(one) in limited
+                inside = _is_limited(one, known) or unparse(one) in limited
                 if inside and gain is not None and abs(gain) > 1 and _goes_out(function, node, values):
                     yield (
                         node.lineno,
                         "limit",
-                        f"{ast.unparse(node)[:70]} multiplies by {gain:g} what is limited already, so it goes beyond "
+                        f"{unparse(node)[:70]} multiplies by {gain:g} what is limited already, so it goes beyond "
                         "the limit: limit last",
                     )
                     return
@@ -153,16 +162,16 @@ def _is_limited(node: ast.expr, known: dict[str, Number]) -> bool:
         return _is_limited(node.args[0], known)
     if last_name(node.func) not in ("clip", "min", "max", "clamp", "limited", "limit", "saturate"):
         return False
-    numbers = [number(each, known) for each in walk(node) if isinstance(each, ast.expr)]
+    numbers = [number(each, known) for each in nodes_of(node, ast.expr)]
     return LIMIT in numbers
 
 
 def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.expr]) -> bool:
     """Return whether an expression reaches angular.z with nothing but signs on its way."""
     for target, value in assigned(function):
-        if ast.unparse(target).endswith("angular.z"):
+        if unparse(target).endswith("angular.z"):
             parts = list(walk(value))
-            names = [ast.unparse(each) for each in parts if isinstance(each, ast.Name | ast.Attribute)]
+            names = [unparse(each) for each in parts if isinstance(each, ast.Name | ast.Attribute)]
             parts += [each for name in names if name in values for each in walk(values[name])]
             limits = any(
                 isinstance(each, ast.Call)
@@ -181,28 +190,28 @@ def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
         return
     for function in functions(tree):
         single = {
-            ast.unparse(each)
-            for loop in walk(function)
-            if isinstance(loop, ast.For | ast.comprehension) and ".ranges" in ast.unparse(loop.iter)
+            unparse(each)
+            for loop in nodes_of(function, ast.For, ast.comprehension)
+            if ".ranges" in unparse(loop.iter)
             for each in ([loop.target] if not isinstance(loop.target, ast.Tuple) else loop.target.elts[1:])
-        } | {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
+        } | {unparse(target) for target, value in assigned(function) if ".ranges[" in unparse(value)}
         rows: dict[str, ast.Tuple] = {}
         for call, name in calls(function):
             if name == "append" and call.args and isinstance(call.args[0], ast.Tuple):
-                rows[ast.unparse(call.func).rpartition(".")[0]] = call.args[0]
+                rows[unparse(call.func).rpartition(".")[0]] = call.args[0]
         for target, value in assigned(function):
             if isinstance(value, ast.ListComp) and isinstance(value.elt, ast.Tuple):
-                rows[ast.unparse(target)] = value.elt
+                rows[unparse(target)] = value.elt
         for call, name in calls(function):
-            row = rows.get(ast.unparse(call.args[0])) if name in ("min", "sorted") and len(call.args) == 1 else None
+            row = rows.get(unparse(call.args[0])) if name in ("min", "sorted") and len(call.args) == 1 else None
             if row is None or call.keywords or not row.elts:
                 continue
-            items = [ast.unparse(each) for each in row.elts]
+            items = [unparse(each) for each in row.elts]
             if items[0] not in single and set(items[1:]) & single:
                 yield (
                     call.lineno,
                     "farthest",
-                    f"{ast.unparse(call)[:60]} compares the first items of the tuples, {items[0][:30]}, and not their "
+                    f"{unparse(call)[:60]} compares the first items of the tuples, {items[0][:30]}, and not their "
                     "ranges: put the range first, or pass a key",
                 )
 
@@ -212,18 +221,18 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
     if not _steers(tree):
         return
     for function in functions(tree):
-        single = {ast.unparse(target) for target, value in assigned(function) if ".ranges[" in ast.unparse(value)}
-        for loop in (each for each in walk(function) if isinstance(each, ast.For | ast.comprehension)):
+        single = {unparse(target) for target, value in assigned(function) if ".ranges[" in unparse(value)}
+        for loop in nodes_of(function, ast.For, ast.comprehension):
             last = loop.target.elts[-1] if isinstance(loop.target, ast.Tuple) else loop.target
-            if ".ranges" in ast.unparse(loop.iter) and "range(" not in ast.unparse(loop.iter):
-                single.add(ast.unparse(last))
+            if ".ranges" in unparse(loop.iter) and "range(" not in unparse(loop.iter):
+                single.add(unparse(last))
         for call, name in calls(function):
-            given = ast.unparse(call.args[0]) if len(call.args) == 1 else ""
+            given = unparse(call.args[0]) if len(call.args) == 1 else ""
             if name in ("int", "round") and (given in single or ".ranges[" in given.partition("(")[0]):
                 yield (
                     call.lineno,
                     "farthest",
-                    f"{ast.unparse(call)[:60]} makes whole metres of a range: leave it as it is",
+                    f"{unparse(call)[:60]} makes whole metres of a range: leave it as it is",
                 )
 
 
@@ -231,29 +240,25 @@ def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
     """Find a ray that hits nothing, or is not valid, that counts as 0 m."""
     if not _steers(tree):
         return
-    text = ast.unparse(tree)
+    text = unparse(tree)
     if re.search(r"> (?:0(?:\.\d*)?|\w+\.range_min|self\.range_min)\b", text):
         return  # a range of 0 is left out again
     for node in walk(tree):
-        code, zero = ast.unparse(node) if isinstance(node, ast.expr | ast.Assign) else "", False
+        code, zero = unparse(node) if isinstance(node, ast.expr | ast.Assign) else "", False
         match node:
             case ast.Call() if last_name(node.func) == "nan_to_num":
                 zero = any(each.arg == "posinf" and number(each.value, {}) == 0 for each in node.keywords)
             case ast.Call(args=[test, one, other]) if last_name(node.func) == "where":
-                zero = 0 in (number(one, {}), number(other, {})) and bool(
-                    re.search("isinf|isfinite", ast.unparse(test))
-                )
+                zero = 0 in (number(one, {}), number(other, {})) and bool(re.search("isinf|isfinite", unparse(test)))
             case ast.IfExp(test=test, body=one, orelse=other):
                 zero = 0 in (number(one, {}), number(other, {})) and bool(
-                    re.search(r"isinf|isfinite|\binf\b|range_max", ast.unparse(test))
+                    re.search(r"isinf|isfinite|\binf\b|range_max", unparse(test))
                 )
             case ast.Assign(targets=[ast.Subscript() as target], value=value):
-                zero = number(value, {}) == 0 and bool(re.search(r"isinf|isfinite|\binf\b", ast.unparse(target)))
+                zero = number(value, {}) == 0 and bool(re.search(r"isinf|isfinite|\binf\b", unparse(target)))
             case ast.If(test=test, body=[ast.Assign(targets=[ast.Name()], value=value)]):
-                code = f"if {ast.unparse(test)}: {ast.unparse(node.body[0])}"
-                zero = number(value, {}) == 0 and bool(
-                    re.search(r"isinf|isfinite|\binf\b|range_max", ast.unparse(test))
-                )
+                code = f"if {unparse(test)}: {unparse(node.body[0])}"
+                zero = number(value, {}) == 0 and bool(re.search(r"isinf|isfinite|\binf\b|range_max", unparse(test)))
         if zero:
             yield (
                 node.lineno,  # type: ignore[attr-defined]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, unparse, walk
 
 
 def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
@@ -15,7 +15,7 @@ def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
     given: dict[str, list[tuple[str, ast.expr]]] = {}
     for function in functions(tree):
         for target, value in assigned(function):
-            if (name := ast.unparse(target)).startswith("self."):
+            if (name := unparse(target)).startswith("self."):
                 given.setdefault(name, []).append((function.name, value))
     for name, values in given.items():
         begun = [value for where, value in values if where == "__init__"]
@@ -37,17 +37,17 @@ def _is(value: ast.expr, wanted: bool) -> bool:
 
 def _stop(tree: ast.AST, name: str) -> int:
     """Return the line in which a flag that is set lets a function return, or sets a speed of zero; 0 if none does."""
-    driving = (f for f in functions(tree) if any(ast.unparse(t).endswith("linear.x") for t, _ in assigned(f)))
+    driving = (f for f in functions(tree) if any(unparse(t).endswith("linear.x") for t, _ in assigned(f)))
     for node in (each for function in driving for each in walk(function)):
-        if isinstance(node, ast.IfExp) and ast.unparse(node.test) == name and _zero(node.body):
+        if isinstance(node, ast.IfExp) and unparse(node.test) == name and _zero(node.body):
             return node.lineno
         if not isinstance(node, ast.If) or not _asks(node.test, name):
             continue
         returns = any(isinstance(each, ast.Return) for each in node.body)
         speeds = [
-            value for part in node.body for target, value in assigned(part) if ast.unparse(target).endswith("linear.x")
+            value for part in node.body for target, value in assigned(part) if unparse(target).endswith("linear.x")
         ]
-        empty = returns and not speeds and ("publish" not in called(node) or "Twist()" in ast.unparse(node))
+        empty = returns and not speeds and ("publish" not in called(node) or "Twist()" in unparse(node))
         if empty or (speeds and all(_zero(each) for each in speeds)):
             return node.lineno
     return 0
@@ -57,7 +57,7 @@ def _asks(test: ast.expr, name: str) -> bool:
     """Return whether a condition holds as soon as a flag is set."""
     if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.Or):
         return any(_asks(each, name) for each in test.values)
-    return ast.unparse(test) in (name, f"{name} is True", f"{name} == True")
+    return unparse(test) in (name, f"{name} is True", f"{name} == True")
 
 
 def _zero(value: ast.expr) -> bool:

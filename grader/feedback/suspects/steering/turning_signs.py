@@ -6,7 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, walk
+from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects.steering.headings import HEADING
 
 WHOLE_TURN = re.compile(r"2(?:\.0)? \* [\w.]*pi|[\w.]*pi \* 2|\btau\b|6\.28")
@@ -16,8 +16,8 @@ AIMED = frozenset({"atan2", "arctan2"})
 def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
     """Find `angular.z = -1.2 if error > 0 else 1.2`, where the error is the direction of the goal minus the heading."""
     pairs = list(assigned(tree))
-    aimed = {ast.unparse(target) for target, value in pairs if called(value) & AIMED}
-    errors = {ast.unparse(target) for target, value in pairs if _goal_minus_heading(value, aimed)}
+    aimed = {unparse(target) for target, value in pairs if called(value) & AIMED}
+    errors = {unparse(target) for target, value in pairs if _goal_minus_heading(value, aimed)}
     for node in walk(tree):
         if isinstance(node, ast.If):
             sides = [_turn(each) for each in node.body]
@@ -34,7 +34,7 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
             case _:
                 continue
         given = next((each for each in sides if each is not None), None)
-        if given is None or ast.unparse(error) not in errors or not side:
+        if given is None or unparse(error) not in errors or not side:
             continue
         negative = isinstance(given, ast.UnaryOp) and isinstance(given.op, ast.USub)
         if negative == (side > 0) and (negative or isinstance(given, ast.Constant)):
@@ -42,7 +42,7 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
             yield (
                 node.lineno,
                 "sign",
-                f"where {ast.unparse(test)}, the goal is on the {goal}, and angular.z becomes {ast.unparse(given)}, "
+                f"where {unparse(test)}, the goal is on the {goal}, and angular.z becomes {unparse(given)}, "
                 f"which turns the robot to the {turn}, away from its goal; a positive angular.z turns to the left",
             )
 
@@ -50,8 +50,8 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
 def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
     """Find `error = (atan2(dy, dx) - yaw) % (2 * pi)`, which is never negative, so all turns go to the left."""
     pairs = list(assigned(tree))
-    aimed = {ast.unparse(target) for target, value in pairs if called(value) & AIMED}
-    text = ast.unparse(tree)
+    aimed = {unparse(target) for target, value in pairs if called(value) & AIMED}
+    text = unparse(tree)
     for target, value in pairs:
         match value:
             case ast.BinOp(left=error, op=ast.Mod(), right=whole):
@@ -60,29 +60,29 @@ def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
                 pass
             case _:
                 continue
-        name = ast.unparse(target)
-        if not WHOLE_TURN.search(ast.unparse(whole)) or not _goal_minus_heading(error, aimed):
+        name = unparse(target)
+        if not WHOLE_TURN.search(unparse(whole)) or not _goal_minus_heading(error, aimed):
             continue
         if not re.search(rf"{re.escape(name)} (?:>=?|-=?) [\w.]*pi", text):  # what follows may bring it below pi
             yield (
                 value.lineno,
                 "wrap",
-                f"`{ast.unparse(value)[:80]}` lies between 0 and 2 pi, so a goal a little to the right is nearly a "
+                f"`{unparse(value)[:80]}` lies between 0 and 2 pi, so a goal a little to the right is nearly a "
                 f"whole turn to the left: {name} must lie between -pi and pi, as remainder(..., 2 * pi) does",
             )
 
 
 def _goal_minus_heading(value: ast.expr, aimed: set[str]) -> bool:
-    for node in walk(value):
-        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
-            left, right = ast.unparse(node.left), ast.unparse(node.right)
+    for node in nodes_of(value, ast.BinOp):
+        if isinstance(node.op, ast.Sub):
+            left, right = unparse(node.left), unparse(node.right)
             if (called(node.left) & AIMED or left in aimed) and HEADING.search(right) and right not in aimed:
                 return True
     return False
 
 
 def _turns(target: ast.expr) -> bool:
-    return ast.unparse(target).endswith("angular.z")
+    return unparse(target).endswith("angular.z")
 
 
 def _turn(statement: ast.stmt) -> ast.expr | None:
