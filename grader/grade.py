@@ -221,12 +221,13 @@ def make_report(
     """Put the scores of all trials, and what their recordings say about the runs, together."""
     if any(each.recording.facts().get("lines_dropped") for each in results):
         notes = [*notes, "The log was too long to be recorded as a whole; it was cut, and that costs no points."]
+    score = combined([(each.run.get("trial", "public"), each.score) for each in results])
     return Report(
         exercise=exercise.name,
         title=exercise.title,
         submission=submission,
         recording=results[0].path,
-        score=combined([(each.run.get("trial", "public"), each.score) for each in results]),
+        score=score,
         max_score=exercise.max_score,
         sim_seconds=sum(each.recording.facts().get("sim_seconds", 0.0) for each in results),
         seed=results[0].run["seed"],
@@ -243,5 +244,5 @@ def make_report(
             )
             for each in results
         ),
-        notes=tuple(notes),
+        notes=(*notes, *score.faults),
     )

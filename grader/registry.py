@@ -22,6 +22,16 @@ def modules(package: ModuleType) -> dict[str, ModuleType]:
     return {name: importlib.import_module(f"{package.__name__}.{name}") for name in module_names(package)}
 
 
+def modules_below(package: ModuleType) -> list[ModuleType]:
+    """Import every module of a package and of the packages in it, sorted by name within each."""
+    found = list(modules(package).values())
+    for name in sorted(
+        {path.parent.name for folder in package.__path__ for path in Path(folder).glob("[!_]*/__init__.py")}
+    ):
+        found += modules_below(importlib.import_module(f"{package.__name__}.{name}"))
+    return found
+
+
 def in_order(before: Mapping[str, Iterable[str]]) -> list[str]:
     """Sort names, each of which stands before the names it is mapped to; alphabetically where that leaves a choice.
 

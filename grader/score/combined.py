@@ -30,7 +30,8 @@ def combined(scores: Sequence[tuple[str, Score]]) -> Score:
         diagnosis = f"In the trial {lost[0][0]}: {diagnosis}"
     outcome = next((score.outcome for _, score in scores if score.outcome != "graded"), "graded")
     digest = hashlib.sha256("".join(score.truth_sha256 for _, score in scores).encode()).hexdigest()
-    return Score(checks, outcome, diagnosis, digest)
+    faults = tuple(dict.fromkeys(fault for _, score in scores for fault in score.faults))
+    return Score(checks, outcome, diagnosis, digest, faults)
 
 
 def _weakest(results: list[tuple[str, CheckResult]]) -> CheckResult:

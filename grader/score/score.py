@@ -10,6 +10,7 @@ import numpy as np
 from gz_course.grader.exercise import CheckSpec, Exercise
 from gz_course.grader.feedback.predictions.answers import agreed
 from gz_course.grader.feedback.recorded.source_places import made_in
+from gz_course.grader.feedback.rules import faults_kept, recorded_faults
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
@@ -34,12 +35,16 @@ class CheckResult:
 
 @dataclass(frozen=True)
 class Score:
-    """The score of one run. `diagnosis` is the first sentence of feedback; empty for full marks."""
+    """The score of one run. `diagnosis` is the first sentence of feedback; empty for full marks.
+
+    `faults` are sentences for the instructor on rules of feedback that failed.
+    """
 
     checks: tuple[CheckResult, ...]
     outcome: str
     diagnosis: str
     truth_sha256: str
+    faults: tuple[str, ...] = ()
 
     @property
     def points(self) -> float:
@@ -48,6 +53,13 @@ class Score:
 
 def score(recording: Recording, exercise: Exercise) -> Score:
     """Apply every check of the manifest and name the most likely fault."""
+    with faults_kept() as faults:
+        found = _score(recording, exercise)
+    broken = dict.fromkeys([*recorded_faults(recording.facts()), *faults])
+    return replace(found, faults=tuple(map(str, broken)))
+
+
+def _score(recording: Recording, exercise: Exercise) -> Score:
     specs = exercise.checks
     explained = find_kind(exercise.kind).diagnosis()
     outcome = explained.outcome(recording)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.crash import read_crash
@@ -17,6 +18,7 @@ NOT_ASKED_FOR = "from state EXECUTING with event CANCELED"
 RAISED = "Error raised in execute callback: "
 
 
+@guarded("")
 def execute_raised(recording: Recording, facts: dict[str, Any]) -> str:
     """Name the first error that execute raised, with file and line; empty if it raised none."""
     lines = recording.lines("log/student")

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.rules import guarded
+
 # Pattern of an error -> what is mistaken. {0} is the first group of the pattern.
 MEANINGS = (
     (
@@ -45,6 +47,7 @@ MEANINGS = (
 )
 
 
+@guarded("")
 def bridge_meaning(error: str) -> str:
     """Return what is mistaken for what, given the text of an error; empty if it is unknown."""
     for pattern, words in MEANINGS:

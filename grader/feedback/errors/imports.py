@@ -7,6 +7,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation
+
+BEFORE = ("node_interface",)
+
 # Module -> what beginners import from it.
 MODULES = {
     "rclpy.node": "Node",
@@ -66,6 +70,7 @@ def statement(name: str) -> str:
     return " or ".join(f"from {module} import {name}" for module in homes(name))
 
 
+@explanation
 def import_fault(error: str, code: str) -> str:
     """Explain an import of what lies elsewhere, is called otherwise, or belongs to ROS 1."""
     if match := re.search(
@@ -94,6 +99,7 @@ def import_fault(error: str, code: str) -> str:
     return ""
 
 
+@explanation
 def unknown_name(error: str, code: str) -> str:
     """Explain a NameError: a missing import, a word of another language, a class that is called otherwise."""
     match = re.search(r"NameError: name '(\w+)' is not defined", error)

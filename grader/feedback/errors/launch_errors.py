@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import listed
+from gz_course.grader.feedback.rules import guarded
+
 # Module of each name that launch files import.
 MODULES = {
     "launch": ("LaunchDescription", "LaunchService"),
@@ -201,6 +204,7 @@ MEANINGS = (
 )
 
 
+@guarded("")
 def launch_meaning(error: str) -> str:
     """Return what to change, given the text of an error; empty if it is unknown."""
     if match := NOT_IMPORTED.search(error):
@@ -214,7 +218,4 @@ def launch_meaning(error: str) -> str:
             return f"{what}: from {module} import {match[1]}"
         if match[1] in ("math", "os", "sys"):
             return what
-    for pattern, words in MEANINGS:
-        if match := pattern.search(error):
-            return words.format(*match.groups())
-    return ""
+    return listed(error, MEANINGS)

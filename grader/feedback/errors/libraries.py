@@ -8,6 +8,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation, listed
+
+BEFORE = ("fields",)
+
 # Pattern of an error -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = (
     (
@@ -227,3 +231,8 @@ MEANINGS = (
         "only a coroutine or a Future can be awaited, and this is a {0}: leave out await",
     ),
 )  # fmt: skip
+
+
+@explanation
+def library_error(error: str, code: str) -> str:
+    return listed(error, MEANINGS)

@@ -8,6 +8,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation
+
+BEFORE = ("operands",)
+
 # What beginners call on the node -> what there is.
 OF_A_NODE = {
     "now": "self.get_clock().now()", "get_time": "self.get_clock().now()", "time": "self.get_clock().now()",
@@ -105,6 +109,7 @@ LIBRARY = frozenset({
 FUNCTIONS = frozenset({"spin", "spin_once", "shutdown"})
 
 
+@explanation
 def arguments(error: str, code: str) -> str:
     """Explain a call of rclpy with arguments that it does not take."""
     if re.search(r"Node\.__init__\(\) got an unexpected keyword argument 'use_sim_time'", error):
@@ -130,6 +135,7 @@ def arguments(error: str, code: str) -> str:
     return f"the call is {ARGUMENTS[function]}" if function in ARGUMENTS else ""
 
 
+@explanation
 def own_arguments(error: str, code: str) -> str:
     """Explain a call in the student's own file of a method of theirs with the wrong number of arguments."""
     match = re.search(
@@ -159,6 +165,7 @@ def own_arguments(error: str, code: str) -> str:
     )
 
 
+@explanation
 def attributes(error: str, code: str) -> str:
     """Explain a method or module attribute that has another name, or a name that a node has already."""
     if match := re.search(r"AttributeError: module '(\w+)' has no attribute '(\w+)'", error):

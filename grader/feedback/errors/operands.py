@@ -7,6 +7,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation
+
+BEFORE = ("libraries",)
+
 NUMBERS = frozenset({"int", "float", "float32", "float64", "numpy.float64"})
 LISTS = frozenset({"list", "tuple", "array.array"})
 DATA = re.compile(r"(?:String|Bool|Float\d+|U?Int\d+)$")
@@ -35,6 +39,7 @@ INSTEAD = {
 }
 
 
+@explanation
 def operands(error: str, code: str) -> str:
     """Explain an operator between values that do not go together."""
     if match := OPERATION.search(error) or COMPARISON.search(error):
@@ -109,6 +114,7 @@ def _single(kind: str) -> str:
     return ""
 
 
+@explanation
 def lists(error: str, code: str) -> str:
     """Explain what is no list, and an index that does not fit."""
     if match := NO_LIST.search(error):
@@ -164,6 +170,7 @@ def lists(error: str, code: str) -> str:
     return ""
 
 
+@explanation
 def calls(error: str, code: str) -> str:
     """Explain a call of what is no function."""
     match = NO_CALL.search(error)

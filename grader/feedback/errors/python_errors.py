@@ -6,15 +6,9 @@ Only errors with a certain cause are listed: a wrong guess is worse than none.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
 
-from gz_course.grader.feedback.errors import libraries, values
-from gz_course.grader.feedback.errors.imports import import_fault, unknown_name
-from gz_course.grader.feedback.errors.node_interface import arguments, attributes, own_arguments
-from gz_course.grader.feedback.errors.operands import calls, lists, operands
-from gz_course.grader.feedback.errors.syntax import syntax
-from gz_course.grader.feedback.errors.transforms import transform_fault
-from gz_course.sim.did_you_mean import nearest_name
+from gz_course.grader.feedback.errors import ROOM, explanation, listed
+from gz_course.grader.feedback.rules import ask
 
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = (
@@ -266,71 +260,9 @@ MEANINGS = (
 )
 
 
-# Fields of the messages that beginners meet, for misspelt ones. Source: the packages of common_interfaces.
-FIELDS = {
-    "LaserScan": (
-        "header", "angle_min", "angle_max", "angle_increment", "time_increment", "scan_time", "range_min", "range_max",
-        "ranges", "intensities",
-    ),
-    "Twist": ("linear", "angular"),
-    "Vector3": ("x", "y", "z"),
-    "Odometry": ("header", "child_frame_id", "pose", "twist"),
-    "Header": ("stamp", "frame_id"),
-    "String": ("data",), "Float32": ("data",), "Float64": ("data",), "Bool": ("data",), "Int32": ("data",),
-    "Int64": ("data",), "UInt8": ("data",), "UInt32": ("data",),
-    "Point": ("x", "y", "z"), "Quaternion": ("x", "y", "z", "w"), "Pose": ("position", "orientation"),
-    "PoseStamped": ("header", "pose"), "PointStamped": ("header", "point"),
-    "TransformStamped": ("header", "child_frame_id", "transform"), "Transform": ("translation", "rotation"),
-    "TwistStamped": ("header", "twist"), "PoseWithCovariance": ("pose", "covariance"),
-    "TwistWithCovariance": ("twist", "covariance"),
-    "Imu": (
-        "header", "orientation", "orientation_covariance", "angular_velocity", "angular_velocity_covariance",
-        "linear_acceleration", "linear_acceleration_covariance",
-    ),
-    "Image": ("header", "height", "width", "encoding", "is_bigendian", "step", "data"),
-    "CameraInfo": ("header", "height", "width", "distortion_model", "d", "k", "r", "p"),
-    "OccupancyGrid": ("header", "info", "data"),
-    "MapMetaData": ("map_load_time", "resolution", "width", "height", "origin"),
-    "JointState": ("header", "name", "position", "velocity", "effort"),
-}  # fmt: skip
-# What is looked for one level too high.
-INSIDE = {
-    ("Odometry", "position"): "pose.pose.position", ("Odometry", "orientation"): "pose.pose.orientation",
-    ("Odometry", "linear"): "twist.twist.linear", ("Odometry", "angular"): "twist.twist.angular",
-    ("Odometry", "x"): "pose.pose.position.x", ("Odometry", "y"): "pose.pose.position.y",
-    ("PoseWithCovariance", "position"): "pose.position", ("PoseWithCovariance", "orientation"): "pose.orientation",
-    ("PoseWithCovariance", "x"): "pose.position.x", ("PoseWithCovariance", "y"): "pose.position.y",
-    ("TwistWithCovariance", "linear"): "twist.linear", ("TwistWithCovariance", "angular"): "twist.angular",
-    ("Pose", "x"): "position.x", ("Pose", "y"): "position.y", ("Twist", "x"): "linear.x", ("Twist", "z"): "angular.z",
-    ("Odometry", "stamp"): "header.stamp", ("LaserScan", "stamp"): "header.stamp", ("Imu", "stamp"): "header.stamp",
-    ("TransformStamped", "translation"): "transform.translation",
-    ("TransformStamped", "rotation"): "transform.rotation",
-    ("PoseStamped", "position"): "pose.position", ("PointStamped", "x"): "point.x", ("PointStamped", "y"): "point.y",
-    ("OccupancyGrid", "resolution"): "info.resolution", ("OccupancyGrid", "width"): "info.width",
-    ("OccupancyGrid", "height"): "info.height", ("OccupancyGrid", "origin"): "info.origin",
-    ("OccupancyGrid", "frame_id"): "header.frame_id", ("Transform", "x"): "translation.x",
-    ("LaserScan", "frame_id"): "header.frame_id",
-}  # fmt: skip
-NO_FIELD = re.compile(r"AttributeError: '(\w+)' object has no attribute '(\w+)'")
-
-
-def _field(error: str) -> str:
-    """Return the fields of the message whose field is misspelt; empty if it is another error."""
-    match = NO_FIELD.search(error)
-    if match is None or match.group(1) not in FIELDS:
-        return ""
-    kind, name = match.groups()
-    known = FIELDS[kind]
-    if near := nearest_name(name, known) or (known[0] if len(known) == 1 else ""):
-        return f"the field of a {kind} is called {near}"
-    if path := INSIDE.get((kind, name)):
-        return f"a {kind} has the fields {', '.join(known)}; {name} is in .{path}"
-    return f"a {kind} has the fields {', '.join(known)}"
-
-
-LOOKS: tuple[Callable[[str, str], str], ...] = (
-    syntax, import_fault, attributes, arguments, own_arguments, operands, lists, calls, unknown_name,
-)  # fmt: skip
+@explanation
+def python_error(error: str, code: str) -> str:
+    return listed(error, MEANINGS)
 
 
 def meaning(error: str, code: str = "") -> str:
@@ -338,17 +270,4 @@ def meaning(error: str, code: str = "") -> str:
 
     `code` is the line of the program at the end of the traceback.
     """
-    known = (
-        transform_fault(error),
-        *(look(error, code) for look in LOOKS),
-        _listed(error, libraries.MEANINGS),
-        _field(error),
-        _listed(error, values.MEANINGS),
-        _listed(error, MEANINGS),
-    )
-    return next(filter(None, known), "")
-
-
-def _listed(error: str, meanings: Iterable[tuple[re.Pattern[str], str]]) -> str:
-    found = ((pattern.search(error), words) for pattern, words in meanings)
-    return next((words.format(*match.groups()) for match, words in found if match), "")
+    return next((said for rule in ROOM.rules() if (said := ask(rule, "", error, code))), "")

@@ -7,6 +7,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation
+
+BEFORE = ("imports",)
+
 # Pattern of the quoted line -> what Python writes; asked in turn.
 HABITS = (
     (re.compile(r"\belse\s+if\b"), "else if is one word in Python: elif CONDITION:"),
@@ -64,6 +68,7 @@ WORDS = (
 )  # fmt: skip
 
 
+@explanation
 def syntax(error: str, code: str) -> str:
     """Explain a SyntaxError; `error` ends in the line, as in `file.py, line 3: SyntaxError: invalid syntax: x++`."""
     match = re.search(r"SyntaxError: (.*)$", error, re.DOTALL)

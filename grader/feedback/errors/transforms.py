@@ -8,6 +8,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation, listed
+
+BEFORE = ("syntax",)
+
 CATCH = "Catch TransformException of tf2_ros, keep the message, and try again when the next one comes"
 # Pattern of the error -> what to change. {0} is the group of the pattern.
 MEANINGS = (
@@ -86,9 +90,7 @@ MEANINGS = (
 )  # fmt: skip
 
 
-def transform_fault(error: str) -> str:
+@explanation
+def transform_fault(error: str, code: str) -> str:
     """Return what to change after an error about transforms; empty if it is about something else."""
-    for pattern, words in MEANINGS:
-        if match := pattern.search(error):
-            return words.format(*match.groups())
-    return ""
+    return listed(error, MEANINGS)

@@ -7,6 +7,10 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.errors import explanation, listed
+
+BEFORE = ("python_errors",)
+
 # Pattern of the error -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = (
     (
@@ -106,3 +110,8 @@ MEANINGS = (
         "{0} is not part of the course: Python, NumPy and the packages of ROS are",
     ),
 )
+
+
+@explanation
+def value_error(error: str, code: str) -> str:
+    return listed(error, MEANINGS)

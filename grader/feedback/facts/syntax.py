@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator
 from functools import lru_cache, wraps
 from typing import Any, TypeVar, overload
 
+from gz_course.grader.feedback.rules import ask
+
 Place = tuple[int, str]  # line, and the words of a sentence
-Suspect = tuple[int, str, str]  # line, what it is about, and the words of a sentence
 Places = list[dict[str, Any]]
 Node = TypeVar("Node", bound=ast.AST)
 Value = TypeVar("Value")
@@ -20,6 +21,7 @@ Three = TypeVar("Three", bound=ast.AST)
 MOST_WORK = 30_000
 KEPT = "_kept"
 GIVEN_UP = (SyntaxError, ValueError, RecursionError, MemoryError)
+DEEPEST = 150  # levels of a syntax tree that rules follow; no solution has 50
 
 
 class _Kept(dict[Any, Any]):
@@ -162,13 +164,13 @@ def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
 
 
 def places_in(content: bytes, look: Callable[[ast.Module], Places]) -> Places:
-    """Return what `look` finds in the syntax tree of a file; nothing if Python gives up parsing or looking.
+    """Return what `look` finds in the syntax tree of a file; nothing if Python gives up parsing it.
 
-    A file that is far longer than any solution has none: looks compare its statements with each other.
+    A file that is far longer or deeper than any solution has none: rules compare its statements with each other.
     """
     try:
         tree = _parsed(content)
-        return look(tree) if _work(tree) <= MOST_WORK else []
+        return ask(look, [], tree) if _work(tree) <= MOST_WORK else []
     except GIVEN_UP:
         return []
 
@@ -189,8 +191,8 @@ def _parsed(content: bytes) -> ast.Module:
 @kept
 def _work(tree: ast.AST) -> int:
     work, level, depth = 0, [tree], 0
-    while level and work <= MOST_WORK:
+    while level and work <= MOST_WORK and depth <= DEEPEST:
         work += len(level) * depth
         level = [child for node in level for child in children(node)]
         depth += 1
-    return work
+    return work if depth <= DEEPEST else MOST_WORK + 1

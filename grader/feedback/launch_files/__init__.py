@@ -1,39 +1,28 @@
 """Mistakes in launch files that raise no error, or one that does not name them.
 
-The kind of submission that is a launch file records them as facts; the diagnosis names them if the run lost points.
+The kind of submission that is a launch file records them as facts; the diagnosis names them if the run lost points. A
+mistake is a function of a `LaunchFile` under `@launch_slip` that yields a line and the words of a sentence.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import Any
 
 from gz_course.grader.feedback.facts.syntax import Places, places_in
-from gz_course.grader.feedback.launch_files import (
-    actions,
-    commands,
-    creating,
-    flags,
-    namespaces,
-    ros_arguments,
-    unread,
-    values,
-    waiting,
-)
-from gz_course.grader.feedback.launch_files.commas import missing_commas
-from gz_course.grader.feedback.launch_files.conditions import bridges, simulators
-from gz_course.grader.feedback.launch_files.counts import fixed_counts
-from gz_course.grader.feedback.launch_files.reading import LaunchFile, argument, text
-from gz_course.grader.feedback.launch_files.remappings import remappings
-from gz_course.grader.feedback.launch_files.sim_time import programs
-from gz_course.grader.feedback.slips.language.late_binding import late_bound
-from gz_course.grader.feedback.slips.language.no_effect import first_iteration
-from gz_course.grader.feedback.slips.language.shared_objects import one_list_for_all
-from gz_course.grader.feedback.slips.nodes.scan_callbacks import kept_defaults
+from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
+from gz_course.grader.feedback.rules import Room, ask, findings
 
 MOST = 3  # places reported at most
+Rule = Callable[[LaunchFile], Iterator[Place]]
+ROOM: Room[Rule] = Room(__name__)
+
+
+def launch_slip(function: Rule) -> Rule:
+    """Register a mistake in launch files."""
+    ROOM.add(function, function)
+    return function
 
 
 def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType({})) -> dict[str, Places]:
@@ -50,46 +39,47 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
     found: dict[str, Places] = {}
 
     def look(tree: ast.Module) -> Places:
-        file = LaunchFile(tree)
-        looks = (
-            *values.LOOKS, *actions.LOOKS, *creating.LOOKS, *commands.LOOKS, *ros_arguments.LOOKS, *namespaces.LOOKS,
-            *waiting.LOOKS, *flags.LOOKS,
-        )  # fmt: skip
-        slips = [place for look in looks for place in look(file)]
-        slips += [*kept_defaults(tree), *first_iteration(tree), *namespaces.slashes_in_rules(file, nodes)]
-        slips += namespaces.exchanged_rules(file, nodes)
-        slips += ros_arguments.files_without_namespace(file, nodes)
-        slips += [*ros_arguments.undeclared(file, nodes), *actions.events_that_never_come(file, nodes)]
-        slips += [*late_bound(tree), *one_list_for_all(tree), *missing_commas(content)]
-        slips += [*unread.undeclared_parameters(file, nodes)]
-        slips += unread.for_another_program(file, nodes)
-        slips += [place for look in unread.LOOKS for place in look(file)]
-        found["launch_slips"] = [_place(*each) for each in dict(reversed(slips)).items()][::-1][:MOST]
-        found["fixed_worlds"] = [{"line": line, "world": world} for line, world in values.fixed_worlds(file)][:MOST]
-        found["declared"] = [
-            {
-                "line": call.lineno,
-                "name": text(argument(call, "name", 0)),
-                "default": text(file.value(argument(call, "default_value"))),
-            }
-            for call in file.calls("DeclareLaunchArgument")
-        ]
-        names = {place["name"] for place in found["declared"]}
-        found["declared"] += [
-            {"line": call.lineno, "name": name, "default": text(file.value(argument(call, "default")))}
-            for call in file.calls("LaunchConfiguration")
-            if argument(call, "default") and (name := text(argument(call, "variable_name", 0))) not in names
-        ]
-        found["remappings"] = list(remappings(file))[: 2 * MOST]
-        found["programs"] = list(programs(file))[: 2 * MOST]
-        found["bridges_made"] = list(bridges(file))[: 2 * MOST]
-        found["fixed_counts"] = list(fixed_counts(file))[: 2 * MOST]
-        found["simulators_made"] = list(simulators(file))[: 2 * MOST]
+        file = LaunchFile(tree, content, nodes)
+        slips = [place for rule in ROOM.rules() for place in findings(rule, file)]
+        first = dict(reversed(slips))  # of several on a line, what is found first
+        found["launch_slips"] = [{"line": line, "said": said} for line, said in first.items()][::-1][:MOST]
+        found.update({name: ask(facts, [], file) for name, facts in _facts().items()})
         return []
 
     places_in(content, look)
     return found
 
 
-def _place(line: int, said: str) -> dict[str, Any]:
-    return {"line": line, "said": said}
+def _facts() -> dict[str, Callable[[LaunchFile], Places]]:
+    from gz_course.grader.feedback.launch_files.conditions import bridges, simulators
+    from gz_course.grader.feedback.launch_files.counts import fixed_counts
+    from gz_course.grader.feedback.launch_files.remappings import remappings
+    from gz_course.grader.feedback.launch_files.sim_time import programs
+    from gz_course.grader.feedback.launch_files.values import fixed_worlds
+
+    return {
+        "fixed_worlds": lambda file: [{"line": line, "world": world} for line, world in fixed_worlds(file)][:MOST],
+        "declared": _declared,
+        "remappings": lambda file: list(remappings(file))[: 2 * MOST],
+        "programs": lambda file: list(programs(file))[: 2 * MOST],
+        "bridges_made": lambda file: list(bridges(file))[: 2 * MOST],
+        "fixed_counts": lambda file: list(fixed_counts(file))[: 2 * MOST],
+        "simulators_made": lambda file: list(simulators(file))[: 2 * MOST],
+    }
+
+
+def _declared(file: LaunchFile) -> Places:
+    found = [
+        {
+            "line": call.lineno,
+            "name": text(argument(call, "name", 0)),
+            "default": text(file.value(argument(call, "default_value"))),
+        }
+        for call in file.calls("DeclareLaunchArgument")
+    ]
+    names = {place["name"] for place in found}
+    return found + [
+        {"line": call.lineno, "name": name, "default": text(file.value(argument(call, "default")))}
+        for call in file.calls("LaunchConfiguration")
+        if argument(call, "default") and (name := text(argument(call, "variable_name", 0))) not in names
+    ]

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.feedback.launch_files.ros_arguments import command_words
 from gz_course.grader.feedback.launch_files.sim_time import texts_of
@@ -30,6 +31,7 @@ def _commands(file: LaunchFile) -> Iterator[list[ast.expr]]:
             yield given.elts
 
 
+@launch_slip
 def glued_words(file: LaunchFile) -> Iterator[Place]:
     """Find several words of a command line in one item of the list."""
     for words in _commands(file):
@@ -97,6 +99,54 @@ def _joined(word: ast.expr | None) -> bool:
     return any(OPTION.match(text(each)) for each in words)
 
 
+@launch_slip
+def glued_parts(file: LaunchFile) -> Iterator[Place]:
+    """Find options and a value in gz_args that are joined without a space."""
+    for call in file.calls("IncludeLaunchDescription"):
+        given = file.value(argument(call, "launch_arguments", 1))
+        lists = [each for each in nodes_of(given, ast.List)] if given is not None else []
+        for parts in lists:
+            for one, other in zip(parts.elts, parts.elts[1:], strict=False):
+                said = text(one)
+                if said.startswith("-") and not said.endswith(" ") and not text(other).startswith((" ", "-")):
+                    yield (
+                        one.lineno,
+                        f"a space is missing at the end of {said!r}: launch joins the parts of a list without spaces, "
+                        "so the value after it becomes a part of the option",
+                    )
+
+
+def _of_processes(file: LaunchFile) -> Iterator[tuple[ast.Call, list[ast.expr]]]:
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        name = "arguments" if last_name(call.func) == "Node" else "cmd"
+        given = file.value(argument(call, name))
+        if isinstance(given, ast.List):
+            yield call, given.elts
+
+
+@launch_slip
+def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
+    """Find gz_sim.launch.py included without the one argument that it reads; it inherits those of its includer."""
+    if any(text(each) == "gz_args" for each in file.nodes):
+        return
+    for call in file.calls("IncludeLaunchDescription"):
+        parts = [file.value(each) if isinstance(each, ast.Name) else each for each in walk(call)]
+        if not any("gz_sim.launch.py" in text(each) for part in parts if part for each in walk(part)):
+            continue
+        given = file.value(argument(call, "launch_arguments", 1))
+        if given is None:
+            yield call.lineno, "gz_sim.launch.py gets no gz_args here, so gz sim gets no world and no -r"
+            continue
+        keys = [text(key) for each in nodes_of(given, ast.Dict) for key in each.keys if key]
+        if keys and all(keys):
+            yield (
+                given.lineno,
+                f"gz_sim.launch.py has no argument called {keys[0]}: all that gz sim gets, world and -r too, is the "
+                "text gz_args",
+            )
+
+
+@launch_slip
 def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
     """Find `name:=value` without the words that make it a parameter."""
     for call, words in _of_processes(file):
@@ -125,43 +175,7 @@ def parameters_on_the_command_line(file: LaunchFile) -> Iterator[Place]:
                 yield word.lineno, f"a parameter is written NAME:=VALUE, with := and no spaces: {SIM_TIME}:=true"
 
 
-def _of_processes(file: LaunchFile) -> Iterator[tuple[ast.Call, list[ast.expr]]]:
-    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
-        name = "arguments" if last_name(call.func) == "Node" else "cmd"
-        given = file.value(argument(call, name))
-        if isinstance(given, ast.List):
-            yield call, given.elts
-
-
-def detached(file: LaunchFile) -> Iterator[Place]:
-    """Find a program that is started where Ctrl-C does not reach it."""
-    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
-        given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
-        for node in (each for part in given if part is not None for each in walk(part)):
-            for word in text(node).split():
-                if word in DETACH and isinstance(node, ast.Constant):
-                    yield (
-                        node.lineno,
-                        f"{word} takes the program away from the launch, so that Ctrl-C does not reach it: the actions "
-                        "of a launch run beside each other without that",
-                    )
-
-
-def parameters_for_what_follows(file: LaunchFile) -> Iterator[Place]:
-    """Find a SetParameter that stands behind all nodes which it could be meant for."""
-    for call in file.calls("LaunchDescription"):
-        given = file.value(argument(call, "initial_entities", 0))
-        actions = [file.value(each) for each in given.elts] if isinstance(given, ast.List) else []
-        kinds = [last_name(each.func) if isinstance(each, ast.Call) else "?" for each in actions]
-        for place, (kind, action) in enumerate(zip(kinds, actions, strict=True)):
-            behind = "Node" in kinds[:place] and not set(kinds[place:]) & STARTS_NODES
-            if kind in ("SetParameter", "SetUseSimTime", "SetRemap", "PushRosNamespace") and behind and action:
-                yield (
-                    action.lineno,
-                    f"{kind} reaches only the actions after it in the list, and all nodes come before it",
-                )
-
-
+@launch_slip
 def bridge_parameters(file: LaunchFile) -> Iterator[Place]:
     """Find a bridge that gets its configuration as a file of ROS parameters, or under another name."""
     for call in file.calls("Node"):
@@ -211,43 +225,7 @@ def _file_as_topic(file: LaunchFile, arguments: ast.expr) -> Iterator[Place]:
             )
 
 
-def files_as_topics(file: LaunchFile) -> Iterator[Place]:
-    """Find the bridge's file among the words behind `ros2 run ros_gz_bridge parameter_bridge`."""
-    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
-        given = argument(call, "cmd", 0)
-        if given is not None and "parameter_bridge" in unparse(call) and "config_file" not in unparse(call):
-            yield from _file_as_topic(file, given)
-
-
-def variables_of_the_shell(file: LaunchFile) -> Iterator[Place]:
-    """Find `$world` in a command, where `world` is an argument of the launch."""
-    names = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")} - {""}
-    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
-        given = argument(call, "cmd", 0)
-        for node in walk(given) if given is not None else ():
-            for name in re.findall(r"\$\{?(\w+)", text(node)):
-                if name in names and isinstance(node, ast.Constant):
-                    yield (
-                        node.lineno,
-                        f"${name} is a variable of a shell, which knows no arguments of the launch: the value is "
-                        f"LaunchConfiguration('{name}'), an item of the list",
-                    )
-
-
-def parameters_in_the_environment(file: LaunchFile) -> Iterator[Place]:
-    """Find use_sim_time as an environment variable, or as an argument that a program's own code would have to read."""
-    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "SetEnvironmentVariable"):
-        own = last_name(call.func) == "SetEnvironmentVariable"
-        given = [argument(call, "env"), argument(call, "additional_env"), argument(call, "name", 0) if own else None]
-        for part in given:
-            if part is not None and any(text(each).lower() == SIM_TIME for each in walk(file.value(part) or part)):
-                yield (
-                    part.lineno,
-                    f"{SIM_TIME} is a parameter of a node, and no environment variable: the words of its command are "
-                    f"--ros-args -p {SIM_TIME}:=true",
-                )
-
-
+@launch_slip
 def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
     """Find a SetParameter that is to reach a program which no Node starts."""
     programs = []
@@ -267,6 +245,7 @@ def sim_time_for_others(file: LaunchFile) -> Iterator[Place]:
             )
 
 
+@launch_slip
 def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
     """Find use_sim_time declared as an argument of the launch that nothing reads."""
     declared = [call for call in file.calls("DeclareLaunchArgument") if text(argument(call, "name", 0)) == SIM_TIME]
@@ -280,45 +259,72 @@ def arguments_for_nobody(file: LaunchFile) -> Iterator[Place]:
         )
 
 
-def glued_parts(file: LaunchFile) -> Iterator[Place]:
-    """Find options and a value in gz_args that are joined without a space."""
-    for call in file.calls("IncludeLaunchDescription"):
-        given = file.value(argument(call, "launch_arguments", 1))
-        lists = [each for each in nodes_of(given, ast.List)] if given is not None else []
-        for parts in lists:
-            for one, other in zip(parts.elts, parts.elts[1:], strict=False):
-                said = text(one)
-                if said.startswith("-") and not said.endswith(" ") and not text(other).startswith((" ", "-")):
+@launch_slip
+def detached(file: LaunchFile) -> Iterator[Place]:
+    """Find a program that is started where Ctrl-C does not reach it."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
+        given = file.value(argument(call, "cmd")), argument(call, "prefix"), argument(call, "arguments")
+        for node in (each for part in given if part is not None for each in walk(part)):
+            for word in text(node).split():
+                if word in DETACH and isinstance(node, ast.Constant):
                     yield (
-                        one.lineno,
-                        f"a space is missing at the end of {said!r}: launch joins the parts of a list without spaces, "
-                        "so the value after it becomes a part of the option",
+                        node.lineno,
+                        f"{word} takes the program away from the launch, so that Ctrl-C does not reach it: the actions "
+                        "of a launch run beside each other without that",
                     )
 
 
-def simulator_arguments(file: LaunchFile) -> Iterator[Place]:
-    """Find gz_sim.launch.py included without the one argument that it reads; it inherits those of its includer."""
-    if any(text(each) == "gz_args" for each in file.nodes):
-        return
-    for call in file.calls("IncludeLaunchDescription"):
-        parts = [file.value(each) if isinstance(each, ast.Name) else each for each in walk(call)]
-        if not any("gz_sim.launch.py" in text(each) for part in parts if part for each in walk(part)):
-            continue
-        given = file.value(argument(call, "launch_arguments", 1))
-        if given is None:
-            yield call.lineno, "gz_sim.launch.py gets no gz_args here, so gz sim gets no world and no -r"
-            continue
-        keys = [text(key) for each in nodes_of(given, ast.Dict) for key in each.keys if key]
-        if keys and all(keys):
-            yield (
-                given.lineno,
-                f"gz_sim.launch.py has no argument called {keys[0]}: all that gz sim gets, world and -r too, is the "
-                "text gz_args",
-            )
+@launch_slip
+def parameters_in_the_environment(file: LaunchFile) -> Iterator[Place]:
+    """Find use_sim_time as an environment variable, or as an argument that a program's own code would have to read."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node", "SetEnvironmentVariable"):
+        own = last_name(call.func) == "SetEnvironmentVariable"
+        given = [argument(call, "env"), argument(call, "additional_env"), argument(call, "name", 0) if own else None]
+        for part in given:
+            if part is not None and any(text(each).lower() == SIM_TIME for each in walk(file.value(part) or part)):
+                yield (
+                    part.lineno,
+                    f"{SIM_TIME} is a parameter of a node, and no environment variable: the words of its command are "
+                    f"--ros-args -p {SIM_TIME}:=true",
+                )
 
 
-LOOKS = (
-    glued_words, glued_parts, simulator_arguments, parameters_on_the_command_line, bridge_parameters,
-    sim_time_for_others, arguments_for_nobody, detached, parameters_in_the_environment, files_as_topics,
-    variables_of_the_shell, parameters_for_what_follows,
-)  # fmt: skip
+@launch_slip
+def files_as_topics(file: LaunchFile) -> Iterator[Place]:
+    """Find the bridge's file among the words behind `ros2 run ros_gz_bridge parameter_bridge`."""
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        if given is not None and "parameter_bridge" in unparse(call) and "config_file" not in unparse(call):
+            yield from _file_as_topic(file, given)
+
+
+@launch_slip
+def variables_of_the_shell(file: LaunchFile) -> Iterator[Place]:
+    """Find `$world` in a command, where `world` is an argument of the launch."""
+    names = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")} - {""}
+    for call in file.calls("ExecuteProcess", "ExecuteLocal"):
+        given = argument(call, "cmd", 0)
+        for node in walk(given) if given is not None else ():
+            for name in re.findall(r"\$\{?(\w+)", text(node)):
+                if name in names and isinstance(node, ast.Constant):
+                    yield (
+                        node.lineno,
+                        f"${name} is a variable of a shell, which knows no arguments of the launch: the value is "
+                        f"LaunchConfiguration('{name}'), an item of the list",
+                    )
+
+
+@launch_slip
+def parameters_for_what_follows(file: LaunchFile) -> Iterator[Place]:
+    """Find a SetParameter that stands behind all nodes which it could be meant for."""
+    for call in file.calls("LaunchDescription"):
+        given = file.value(argument(call, "initial_entities", 0))
+        actions = [file.value(each) for each in given.elts] if isinstance(given, ast.List) else []
+        kinds = [last_name(each.func) if isinstance(each, ast.Call) else "?" for each in actions]
+        for place, (kind, action) in enumerate(zip(kinds, actions, strict=True)):
+            behind = "Node" in kinds[:place] and not set(kinds[place:]) & STARTS_NODES
+            if kind in ("SetParameter", "SetUseSimTime", "SetRemap", "PushRosNamespace") and behind and action:
+                yield (
+                    action.lineno,
+                    f"{kind} reaches only the actions after it in the list, and all nodes come before it",
+                )

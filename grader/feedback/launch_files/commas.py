@@ -6,17 +6,19 @@ import io
 import tokenize
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.launch_files.reading import Place
+from gz_course.grader.feedback.launch_files import launch_slip
+from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place
 
 BRACKETS = {"(": ")", "[": "]", "{": "}"}
 
 
-def missing_commas(content: bytes) -> Iterator[Place]:
+@launch_slip
+def missing_commas(file: LaunchFile) -> Iterator[Place]:
     """Find two texts on one line that stand side by side in a list."""
     opened: list[str] = []
     before = ""  # the text before, if it ends on this line
     line = 0
-    for token in tokenize.tokenize(io.BytesIO(content).readline):
+    for token in tokenize.tokenize(io.BytesIO(file.content).readline):
         if token.type == tokenize.OP and token.string in BRACKETS:
             opened.append(token.string)
         elif token.type == tokenize.OP and token.string in BRACKETS.values() and opened:

@@ -9,6 +9,7 @@ import ast
 from collections.abc import Iterator
 from itertools import pairwise
 
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 
 HEADINGS = frozenset({"yaw", "heading", "theta", "rotation", "angle", "direction"})
@@ -37,6 +38,7 @@ def _options(file: LaunchFile) -> Iterator[tuple[ast.expr, ast.expr]]:
             yield from pairwise(_flat(given.elts))
 
 
+@launch_slip
 def axes_of_create(file: LaunchFile) -> Iterator[Place]:
     """Find an option of create of ros_gz_sim that is given the launch argument of another one."""
     for option, value in _options(file):
@@ -50,6 +52,7 @@ def axes_of_create(file: LaunchFile) -> Iterator[Place]:
             )
 
 
+@launch_slip
 def created_twice(file: LaunchFile) -> Iterator[Place]:
     """Find two actions with create that give a robot the same name, and that no condition keeps apart."""
     seen: dict[str, int] = {}
@@ -64,6 +67,7 @@ def created_twice(file: LaunchFile) -> Iterator[Place]:
         seen.setdefault(name, call.lineno)
 
 
+@launch_slip
 def world_of_create(file: LaunchFile) -> Iterator[Place]:
     """Find `-world NAME` with a name that is written down, in a file whose argument says which world runs."""
     declared = {text(argument(call, "name", 0)) for call in file.calls("DeclareLaunchArgument")}
@@ -74,6 +78,3 @@ def world_of_create(file: LaunchFile) -> Iterator[Place]:
                 f"create waits for the world {text(value)} alone, whatever the argument world says: without "
                 f"{text(option)} it takes the world that runs",
             )
-
-
-LOOKS = (axes_of_create, created_twice, world_of_create)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, text
 
 PAUSED = "paused"
@@ -16,6 +17,7 @@ HOLDS = re.compile(
 )
 
 
+@launch_slip
 def runs_when_paused(file: LaunchFile) -> Iterator[Place]:
     """Find `-r`, which lets the world run, where the argument paused is true."""
     for call in file.calls("PythonExpression"):
@@ -56,6 +58,3 @@ def _words(flag: str) -> str:
         f"this gives '{flag.strip()}' where paused is true, and -r lets the world run: the two cases of the "
         "expression are exchanged"
     )
-
-
-LOOKS = (runs_when_paused,)

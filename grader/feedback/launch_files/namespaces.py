@@ -7,9 +7,10 @@ Source: https://design.ros2.org/articles/static_remapping.html
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import called, calls, last_name, parsed, walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 
 PUSHES = ("PushRosNamespace", "PushROSNamespace")
@@ -17,6 +18,7 @@ CREATES = ("create_subscription", "create_publisher", "create_client", "create_s
 LOOPS = ast.For | ast.ListComp | ast.GeneratorExp
 
 
+@launch_slip
 def pushed_without_group(file: LaunchFile) -> Iterator[Place]:
     """Find a namespace that is pushed several times in a file without a group, so that each goes below the last."""
     if any(file.calls("GroupAction", "PopLaunchConfigurations", "PopEnvironment")):
@@ -39,6 +41,7 @@ def _again_and_again(file: LaunchFile, call: ast.Call) -> bool:
     return any(call in walk(loop) or called(loop) & set(around) for loop in loops)
 
 
+@launch_slip
 def groups_for_processes(file: LaunchFile) -> Iterator[Place]:
     """Find a namespace that is pushed in a group whose only programs are processes, which do not get it."""
     for group in file.calls("GroupAction"):
@@ -56,11 +59,12 @@ def groups_for_processes(file: LaunchFile) -> Iterator[Place]:
         )
 
 
-def slashes_in_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+@launch_slip
+def slashes_in_rules(file: LaunchFile) -> Iterator[Place]:
     """Find `-r /front/odom:=...` for a node in a namespace whose own name for the topic is `front/odom`."""
     if not any("__ns:=" in text(each) for each in file.nodes):
         return
-    own = {name for content in nodes.values() for name in _topics(content)}
+    own = {name for content in file.beside.values() for name in _topics(content)}
     behind = {id(each) for node in file.nodes if isinstance(node, ast.JoinedStr) for each in node.values}
     for node in file.nodes:
         if id(node) in behind:
@@ -77,9 +81,10 @@ def slashes_in_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[P
             return
 
 
-def exchanged_rules(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+@launch_slip
+def exchanged_rules(file: LaunchFile) -> Iterator[Place]:
     """Find `-r /robot1/odom:=front/odom` for a node whose own name for the topic is `front/odom`."""
-    own = {name for content in nodes.values() for name in _topics(content)}
+    own = {name for content in file.beside.values() for name in _topics(content)}
     behind = {id(each) for node in file.nodes if isinstance(node, ast.JoinedStr) for each in node.values}
     for node in file.nodes:
         if id(node) in behind or not isinstance(node, ast.JoinedStr | ast.Constant):
@@ -103,6 +108,7 @@ def _topics(content: bytes) -> set[str]:
     return {text(each) for each in given} - {""}
 
 
+@launch_slip
 def namespaces_in_the_environment(file: LaunchFile) -> Iterator[Place]:
     """Find the variable that ROS 1 read for the namespace of a node."""
     for node in file.nodes:
@@ -113,6 +119,3 @@ def namespaces_in_the_environment(file: LaunchFile) -> Iterator[Place]:
                 "Node, or --ros-args -r __ns:=/NAMESPACE in a command",
             )
             return
-
-
-LOOKS = (pushed_without_group, groups_for_processes, namespaces_in_the_environment)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
+from types import MappingProxyType
 
 from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, walk
 
@@ -30,10 +31,12 @@ def text(node: ast.AST | None) -> str:
 
 
 class LaunchFile:
-    """The syntax tree of a launch file."""
+    """The syntax tree and the text of a launch file, and the programs that come with it, by name."""
 
-    def __init__(self, tree: ast.Module) -> None:
-        self.tree = tree
+    def __init__(
+        self, tree: ast.Module, content: bytes = b"", beside: Mapping[str, bytes] = MappingProxyType({})
+    ) -> None:
+        self.tree, self.content, self.beside = tree, content, beside
         self.nodes = list(walk(tree))
 
     def calls(self, *names: str) -> Iterator[ast.Call]:

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import pairwise
 
 from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.feedback.launch_files.unread import OF_EVERY_NODE, declared_parameters
 
@@ -24,6 +25,7 @@ GROWS = ("append", "extend", "insert")
 DEEPEST = 5  # lists in lists that are followed
 
 
+@launch_slip
 def without_ros_args(file: LaunchFile) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in a command whose words are all known, none of them --ros-args."""
     for words in _commands(file):
@@ -41,6 +43,7 @@ def without_ros_args(file: LaunchFile) -> Iterator[Place]:
                 break
 
 
+@launch_slip
 def before_ros_args(file: LaunchFile) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` or `-r OLD:=NEW` in front of the `--ros-args` of the same command, or behind its `--`."""
     for words in _commands(file):
@@ -65,6 +68,7 @@ def before_ros_args(file: LaunchFile) -> Iterator[Place]:
             break
 
 
+@launch_slip
 def values_apart(file: LaunchFile) -> Iterator[Place]:
     """Find `"-p", "NAME:=", VALUE` in a command, where the value is a word of its own."""
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
@@ -79,6 +83,7 @@ def values_apart(file: LaunchFile) -> Iterator[Place]:
                     )
 
 
+@launch_slip
 def nested_parameters(file: LaunchFile) -> Iterator[Place]:
     """Find a dict of parameters with the levels of a parameter file, which makes other names of them."""
     for call in file.calls("Node", "LifecycleNode"):
@@ -94,6 +99,7 @@ def nested_parameters(file: LaunchFile) -> Iterator[Place]:
                     )
 
 
+@launch_slip
 def quoted_truths(file: LaunchFile) -> Iterator[Place]:
     """Find `{"use_sim_time": "True"}` in the parameters of a node: it takes True, and no text."""
     for call in file.calls("Node", "LifecycleNode"):
@@ -109,6 +115,7 @@ def quoted_truths(file: LaunchFile) -> Iterator[Place]:
                         )
 
 
+@launch_slip
 def quotes_in_words(file: LaunchFile) -> Iterator[Place]:
     """Find `"use_sim_time:='true'"` in a list of words: no shell takes the quotes away."""
     for call in file.calls("ExecuteProcess", "ExecuteLocal", "Node"):
@@ -123,13 +130,14 @@ def quotes_in_words(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def undeclared(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+@launch_slip
+def undeclared(file: LaunchFile) -> Iterator[Place]:
     """Find `-p NAME:=VALUE` for a program of the submission that declares parameters of other names only."""
     for call in file.calls("ExecuteProcess", "ExecuteLocal"):
         words = command_words(file, call)
         names = {text(each).rpartition("/")[2] for word in words if word for each in walk(word)}
-        program = next(iter(sorted(names & nodes.keys())), "")
-        known = declared_parameters(nodes[program]) if program else set()
+        program = next(iter(sorted(names & file.beside.keys())), "")
+        known = declared_parameters(file.beside[program]) if program else set()
         for before, word in pairwise(words) if known else ():
             if before is None or word is None or text(before) not in PARAMETER:
                 continue
@@ -160,15 +168,16 @@ def command_words(file: LaunchFile, call: ast.Call) -> list[ast.expr | None]:
     return list(_words(file, given, file.owners.get(id(call), file.tree), DEEPEST))
 
 
-def files_without_namespace(file: LaunchFile, others: Mapping[str, bytes]) -> Iterator[Place]:
+@launch_slip
+def files_without_namespace(file: LaunchFile) -> Iterator[Place]:
     """Find a parameter file for a node `follower` in a command that puts the node into a namespace."""
     for words in _commands(file):
         said = {text(each) for word in words if word is not None for each in walk(word)} - {""}
         if "--params-file" not in said or not any("__ns:=" in each for each in said):
             continue
         line = next(word.lineno for word in words if word is not None)
-        for name in sorted({each.rpartition("/")[2] for each in said} & others.keys()):
-            owner = OF_A_NODE.match(others[name].decode(errors="replace"))
+        for name in sorted({each.rpartition("/")[2] for each in said} & file.beside.keys()):
+            owner = OF_A_NODE.match(file.beside[name].decode(errors="replace"))
             if owner:
                 yield (
                     line,
@@ -208,6 +217,3 @@ def _parts(file: LaunchFile, name: str, scope: ast.AST) -> list[ast.expr]:
     if found:
         return [value for _, value in sorted(found, key=lambda each: each[0])]
     return file.assigned.get(name, [])[:1] if len(file.assigned.get(name, [])) == 1 else []
-
-
-LOOKS = (without_ros_args, before_ros_args, values_apart, nested_parameters, quoted_truths, quotes_in_words)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import calls, last_name, parsed, unparse, walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.sim.did_you_mean import nearest_name
 
@@ -17,6 +18,7 @@ INCLUDED = frozenset({"gz_args", "gz_version", "ign_args", "ign_version", "debug
 OF_EVERY_NODE = frozenset({"use_sim_time", "start_type_description_service"})
 
 
+@launch_slip
 def arguments_unread(file: LaunchFile) -> Iterator[Place]:
     """Find an argument that is declared, and whose value nothing asks for in a file that asks for that of another."""
     read, unknown = set[str](), False
@@ -40,6 +42,7 @@ def arguments_unread(file: LaunchFile) -> Iterator[Place]:
             )
 
 
+@launch_slip
 def braces_without_f(file: LaunchFile) -> Iterator[Place]:
     """Find a text such as "/robot{number}" with the name of a variable in braces, and no f before its quotes."""
     inside = {id(part) for node in file.nodes if isinstance(node, ast.JoinedStr) for part in node.values}
@@ -57,16 +60,17 @@ def braces_without_f(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+@launch_slip
+def undeclared_parameters(file: LaunchFile) -> Iterator[Place]:
     """Find a parameter that the launch file gives a node of the submission, which declares others only."""
     for call in file.calls("Node", "ExecuteProcess"):
         words = {text(each).rpartition("/")[2] for part in (*call.args, *call.keywords) for each in walk(part)}
         for part in (file.value(each.value) for each in call.keywords):
             words |= {text(each).rpartition("/")[2] for each in walk(part)} if part is not None else set()
-        program = next(iter(sorted(words & nodes.keys())), "")
-        known = declared_parameters(nodes[program]) if program else set()
+        program = next(iter(sorted(words & file.beside.keys())), "")
+        known = declared_parameters(file.beside[program]) if program else set()
         for name, line in _given(file, call):
-            if _near_sim_time(name) and name.encode() not in nodes.get(program, b""):
+            if _near_sim_time(name) and name.encode() not in file.beside.get(program, b""):
                 yield line, f"no node has a parameter {name}: the one that turns simulated time on is use_sim_time"
         for name, line in _given(file, call) if known else ():
             if name not in known | OF_EVERY_NODE and not _near_sim_time(name):
@@ -77,13 +81,14 @@ def undeclared_parameters(file: LaunchFile, nodes: Mapping[str, bytes]) -> Itera
                 )
 
 
-def for_another_program(file: LaunchFile, nodes: Mapping[str, bytes]) -> Iterator[Place]:
+@launch_slip
+def for_another_program(file: LaunchFile) -> Iterator[Place]:
     """Find a parameter that is given to one program of the submission, and declared by another one only."""
-    declared = {name: declared_parameters(content) for name, content in nodes.items()}
+    declared = {name: declared_parameters(content) for name, content in file.beside.items()}
     for call in file.calls("Node"):
         words = {text(each).rpartition("/")[2] for part in file.parts(call) for each in walk(part)}
-        program = next(iter(sorted(words & nodes.keys())), "")
-        if not program or b"parameter" in nodes[program]:
+        program = next(iter(sorted(words & file.beside.keys())), "")
+        if not program or b"parameter" in file.beside[program]:
             continue
         for name, line in _given(file, call):
             others = [other for other, names in sorted(declared.items()) if name in names]
@@ -117,6 +122,3 @@ def _given(file: LaunchFile, call: ast.Call) -> Iterator[tuple[str, int]]:
         table = file.value(each)
         if isinstance(table, ast.Dict):
             yield from ((text(key), key.lineno) for key in table.keys if key is not None and text(key))
-
-
-LOOKS = (arguments_unread, braces_without_f)

@@ -13,7 +13,11 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import last_name, unparse, walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
+
+BEFORE = ("actions", "unread")
+
 
 TRUTHS = frozenset({"True", "False"})
 EQUALS = frozenset({"EqualsSubstitution", "NotEqualsSubstitution", "LaunchConfigurationEquals"})
@@ -23,6 +27,7 @@ TEXT_TRUTH = re.compile(rf"\b(?:if|not|and|or)\s+['\"]{VALUE}['\"]\s*(?:$|\)|\be
 WORLD = re.compile(r"(?:^|[\s/])([\w-]+\.(?:sdf|world))$")
 
 
+@launch_slip
 def decided_too_early(file: LaunchFile) -> Iterator[Place]:
     """Find a configuration that is compared, or whose truth is asked for, by Python."""
     for node in file.nodes:
@@ -68,6 +73,7 @@ def _code(node: ast.AST) -> str:
     return unparse(node)[:80]
 
 
+@launch_slip
 def written_into_text(file: LaunchFile) -> Iterator[Place]:
     """Find a configuration in an f-string, in str(), in format() or behind %."""
     for node in file.nodes:
@@ -90,6 +96,7 @@ def written_into_text(file: LaunchFile) -> Iterator[Place]:
                 )
 
 
+@launch_slip
 def texts_as_truths(file: LaunchFile) -> Iterator[Place]:
     """Find the text of a configuration that is asked for its truth: 'false' is a text that is not empty."""
     for node in file.nodes:
@@ -102,6 +109,7 @@ def texts_as_truths(file: LaunchFile) -> Iterator[Place]:
                 )
 
 
+@launch_slip
 def python_truths(file: LaunchFile) -> Iterator[Place]:
     """Find a text that is compared with True or 'True', while arguments are given as true and false."""
     for node in file.nodes:
@@ -120,6 +128,7 @@ def python_truths(file: LaunchFile) -> Iterator[Place]:
                 yield node.lineno, f"this expression compares with '{match[1]}': {_small(match[1])}"
 
 
+@launch_slip
 def expressions_of_truth(file: LaunchFile) -> Iterator[Place]:
     """Find a PythonExpression that asks whether a text is true: 'false' in quotes is true, too."""
     for call in file.calls("PythonExpression"):
@@ -138,6 +147,7 @@ def _small(truth: str) -> str:
     return f"the value of an argument is the text that was typed, '{truth.lower()}' in lower case, not '{truth}'"
 
 
+@launch_slip
 def words_of_the_command(file: LaunchFile) -> Iterator[Place]:
     """Find a launch file that reads the command line or the environment for its arguments."""
     for node in file.nodes:
@@ -163,8 +173,3 @@ def fixed_worlds(file: LaunchFile) -> Iterator[Place]:
                 part = file.value(node) if isinstance(node, ast.Name) else node
                 if isinstance(part, ast.Constant) and (match := WORLD.search(text(part).strip())):
                     yield part.lineno, match[1]
-
-
-LOOKS = (
-    decided_too_early, written_into_text, texts_as_truths, python_truths, expressions_of_truth, words_of_the_command,
-)  # fmt: skip

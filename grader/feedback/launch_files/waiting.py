@@ -9,6 +9,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import assigned, last_name, unparse, walk
+from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, text
 
 WAIT = frozenset({"run", "call", "check_call", "check_output", "getoutput", "getstatusoutput", "system"})
@@ -18,6 +19,7 @@ ASKING = ("service", "topic")  # commands of gz that ask a running world
 ENDLESS = ("parameter_bridge", "robot_state_publisher")
 
 
+@launch_slip
 def waits(file: LaunchFile) -> Iterator[Place]:
     """Find a program that Python waits for, and that ends only after the launch has gone on, or with it.
 
@@ -80,6 +82,3 @@ def _words(file: LaunchFile, command: ast.expr) -> list[str]:
     texts = [each for part in parts for each in walk(part) if text(each)]
     texts.sort(key=lambda each: (getattr(each, "lineno", 0), getattr(each, "col_offset", 0)))
     return [word for each in texts for word in text(each).split()]
-
-
-LOOKS = (waits,)

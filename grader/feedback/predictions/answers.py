@@ -21,12 +21,12 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 
-from gz_course.grader.registry import modules
+from gz_course.grader.feedback.rules import Room, ask
 
 FEWEST = 4  # answers; fewer may fit by chance
 NEARLY_ALL = 0.9
@@ -143,8 +143,8 @@ class Named:
 Prediction = Callable[[Asked], "np.ndarray | Named"]
 Function = TypeVar("Function", bound=Prediction)
 Notice = Callable[[Asked], str]
-_predictions: list[tuple[int, str, frozenset[str], Prediction]] = []
-_notices: list[Notice] = []
+ROOM: Room[tuple[int, str, frozenset[str], Prediction]] = Room(f"{__name__.rpartition('.')[0]}.of_answers")
+NOTICES: Room[Notice] = Room(ROOM.package)
 
 
 def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[Function], Function]:
@@ -155,7 +155,7 @@ def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[F
     """
 
     def register(function: Function) -> Function:
-        _predictions.append((rank, words, frozenset(only), function))
+        ROOM.add((rank, words, frozenset(only), function), function)
         return function
 
     return register
@@ -163,7 +163,7 @@ def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[F
 
 def notices(function: Notice) -> Notice:
     """Register a function that returns a sentence about the answers, without its full stop, or an empty text."""
-    _notices.append(function)
+    NOTICES.add(function, function)
     return function
 
 
@@ -207,17 +207,9 @@ def agreed(explanations: Sequence[Explanation]) -> list[Explanation]:
     ]
 
 
-@cache
-def _load() -> None:
-    from gz_course.grader.feedback.predictions import of_answers
-
-    modules(of_answers)
-
-
 def explain(asked: Asked) -> Explanation:
     """Return which misconceptions fit the answers, as the beginning of a sentence; empty if none does."""
-    _load()
-    said = next(filter(None, (notice(asked) for notice in _notices)), "").replace("{}", "")
+    said = next(filter(None, (ask(notice, "", asked) for notice in NOTICES.rules())), "").replace("{}", "")
     wrong = asked.answered & ~_equal(asked.given, asked.truth, asked.tolerance)
     if asked.answered.sum() < FEWEST or not wrong.any() or _differing(asked):
         return Explanation(said)
@@ -250,12 +242,12 @@ def _differing(asked: Asked) -> bool:
 def _fitting(asked: Asked, wrong: np.ndarray) -> list[Cause]:
     """Return the predictions that fit."""
     found: list[Cause] = []
-    for rank, words, only, prediction in sorted(_predictions, key=lambda each: each[0]):
+    for rank, words, only, prediction in sorted(ROOM.rules(), key=lambda each: each[0]):
         if only and asked.statistic not in only:
             continue
         if rank == LAST and len(found) == 1 and np.isfinite(asked.given[asked.answered]).any():
             break  # it need not be told from others, as an infinite answer must
-        predicted = prediction(asked)
+        predicted = ask(prediction, asked.unknown, asked)
         if not isinstance(predicted, Named):
             predicted = Named(words, predicted)
         if _fits(asked, wrong, np.asarray(predicted.answers, dtype=float)):

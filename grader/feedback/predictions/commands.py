@@ -12,15 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.rules import Room, ask
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
-from gz_course.grader.registry import modules
 
 MOST = 2  # explanations that are named
 SUSPECTS = ("endless", "by_place", "again", "hidden")  # what suspects of a drive are about
@@ -73,12 +72,12 @@ class Drive:
 
 
 Explanation = Callable[[Drive], str]
-_explanations: list[Explanation] = []
+ROOM: Room[Explanation] = Room(f"{__name__.rpartition('.')[0]}.of_commands")
 
 
 def explains(function: Explanation) -> Explanation:
     """Register an explanation."""
-    _explanations.append(function)
+    ROOM.add(function, function)
     return function
 
 
@@ -113,16 +112,8 @@ class WantedDrive:
         return explain(Drive(times / 1e9, linear, angular, ended, self.speed, self.seconds, suspects))
 
 
-@cache
-def _load() -> None:
-    from gz_course.grader.feedback.predictions import of_commands
-
-    modules(of_commands)
-
-
 def explain(drive: Drive) -> str:
     """Return the explanations that fit, joined; empty if there is none."""
-    _load()
     if not len(drive.times):
         return ""
-    return "; ".join([said for each in _explanations if (said := each(drive))][:MOST])
+    return "; ".join([said for rule in ROOM.rules() if (said := ask(rule, "", drive))][:MOST])

@@ -9,6 +9,7 @@ from itertools import combinations
 
 import numpy as np
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.sim.did_you_mean import nearest_name
 
 # What makes a text equal to the wanted one if it is taken away -> its name.
@@ -20,6 +21,7 @@ IGNORED: dict[str, Callable[[str], str]] = {
 }
 
 
+@guarded("")
 def difference(said: str, wanted: str) -> str:
     """Return in what a text differs from the wanted one; empty if it does not, or in more than can be named."""
     if said == wanted:
@@ -53,6 +55,7 @@ def asked_for(window: tuple[float, float]) -> float:
     return 1.0 if start <= 1.0 <= end else (start + end) / 2
 
 
+@guarded("")
 def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
     """Return why messages missed their window; empty if the time tells nothing."""
     if not len(times):
@@ -69,6 +72,7 @@ def wrong_moment(times: np.ndarray, window: tuple[float, float]) -> str:
     return f"the message came at {first:.2f} s, {first - end:.2f} s too late"
 
 
+@guarded("")
 def too_many(times: np.ndarray, ended: float) -> str:
     """Return how messages that are too many follow each other, given their times and the end of the run [s]."""
     if len(times) < 2:
@@ -94,6 +98,7 @@ def _form(line: str) -> list[str]:
     return re.findall(TOKEN, form)
 
 
+@guarded("")
 def line_difference(lines: Sequence[str], wanted: str) -> str:
     """Return in what the first line of a log differs from an example of the wanted line, whatever numbers they hold.
 

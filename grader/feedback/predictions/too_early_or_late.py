@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gz_course.grader.feedback.predictions.texts import asked_for
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.record.reading import Recording
 
 TICK = 0.01  # [s]
@@ -15,6 +16,7 @@ MANY = 50  # messages, as only a callback that calls itself sends them
 NEAR = 0.06  # of a time: as far as a message may come from when a counter would send it
 
 
+@guarded("")
 def counted_late(recording: Recording, times: np.ndarray, window: tuple[float, float]) -> str:
     """Return which counter is compared before it is increased, if that makes a message as late as it came."""
     first, middle = float(times[0]), asked_for(window)
@@ -32,6 +34,7 @@ def counted_late(recording: Recording, times: np.ndarray, window: tuple[float, f
     return ""
 
 
+@guarded("")
 def added_up(recording: Recording, times: np.ndarray, window: tuple[float, float]) -> str:
     """Return which timers and sleeps make the time at which the first message came; empty if they do not."""
     first, found = float(times[0]), recording.facts().get("delays", [])
@@ -63,6 +66,7 @@ def _part(delay: dict[str, Any], first: dict[str, Any]) -> str:
     return f"the sleep{where} takes {delay['seconds']:g} s{again}"
 
 
+@guarded("")
 def counted_too_far(recording: Recording, times: np.ndarray) -> str:
     """Return which counter lets one message too many through, if it makes as many as arrived."""
     for place in recording.facts().get("counters", []):
@@ -75,6 +79,7 @@ def counted_too_far(recording: Recording, times: np.ndarray) -> str:
     return ""
 
 
+@guarded("")
 def sent_again(recording: Recording) -> str:
     """Return which timer there is more than once, or which loop publishes; empty if there is none."""
     for place in recording.facts().get("repetitions", []):
@@ -82,6 +87,7 @@ def sent_again(recording: Recording) -> str:
     return ""
 
 
+@guarded("")
 def answers_itself(recording: Recording, topic: str, times: np.ndarray) -> str:
     """Return that a node hears its own messages and sends another for each; empty if it does not."""
     ends = [each for each in recording.facts().get("endpoints", []) if each["topic"] == topic]
@@ -95,6 +101,7 @@ def answers_itself(recording: Recording, topic: str, times: np.ndarray) -> str:
     )
 
 
+@guarded("")
 def sent_too_early(recording: Recording) -> str:
     """Return where a message is sent before others have found the publisher; empty if that is unknown."""
     for place in recording.facts().get("early_publishing", []):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 
 
+@guarded("")
 def ended_by_itself(recording: Recording, before: float | None = None) -> str:
     """Return when a node ended by itself, without an error, and where; empty if it ran on.
 

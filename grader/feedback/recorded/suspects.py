@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 
 
+@guarded("")
 def suspect(recording: Recording, *about: str) -> str:
     """Return words on the first suspect about one of these things, with its line; empty if there is none.
 

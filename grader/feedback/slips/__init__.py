@@ -1,95 +1,53 @@
 """Mistakes of a first month with Python and rclpy that raise no error, or one that does not name them.
 
 A kind of submission that is Python records these places as facts of a run. The diagnosis names them only if the run
-lost points. Each file has its `LOOKS`: functions of a syntax tree that yield a line and the words of a sentence.
+lost points. A slip is a function of a syntax tree under `@slip` that yields a line and the words of a sentence.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
-from gz_course.grader.feedback.facts.syntax import Places, places_in
-from gz_course.grader.feedback.slips.clocks import (
-    exact_sums,
-    mixed_clocks,
-    no_time_passed,
-    rates,
-    stamp_parts,
-    starts,
-    time_units,
-)
-from gz_course.grader.feedback.slips.geometry import (
-    angles,
-    colours,
-    euler_angles,
-    filtered_rays,
-    limited_values,
-    limits,
-    map_starts,
-    rotations,
-    searches,
-    sorted_rays,
-)
-from gz_course.grader.feedback.slips.language import (
-    conditions,
-    everyday,
-    keys,
-    late_binding,
-    locks,
-    names,
-    never_set,
-    no_effect,
-    none_tests,
-    not_what_they_seem,
-    one_array,
-    own_calls,
-    resets,
-    results,
-    sequences,
-    shared_objects,
-    states,
-    unchanged_conditions,
-    unreached,
-    whole_arrays,
-)
-from gz_course.grader.feedback.slips.language.everyday import LONGEST_PERIOD, periods
-from gz_course.grader.feedback.slips.nodes import (
-    action_servers,
-    callbacks,
-    called_once,
-    endless_spins,
-    endless_waits,
-    parameters,
-    publishers,
-    scan_callbacks,
-    transforms,
-    unused_callbacks,
-    waiting,
-    waiting_messages,
-)
-from gz_course.grader.feedback.slips.nodes.message_fields import unknown_fields
+from gz_course.grader.feedback.facts.syntax import Place, Places, places_in
+from gz_course.grader.feedback.rules import Room, findings
 
 MOST = 3  # places reported at most
-# What is said first of several.
-ROOMS = (
-    everyday.LOOKS, callbacks.LOOKS, unused_callbacks.LOOKS, called_once.LOOKS, late_binding.LOOKS, waiting.LOOKS,
-    names.LOOKS, keys.LOOKS, never_set.LOOKS, unreached.LOOKS, time_units.LOOKS, stamp_parts.LOOKS, no_effect.LOOKS,
-    parameters.LOOKS, action_servers.LOOKS, sequences.LOOKS, transforms.LOOKS, waiting_messages.LOOKS,
-    searches.LOOKS, scan_callbacks.LOOKS, not_what_they_seem.LOOKS, angles.LOOKS, euler_angles.LOOKS,
-    exact_sums.LOOKS, starts.LOOKS, sorted_rays.LOOKS, mixed_clocks.LOOKS, no_time_passed.LOOKS, rotations.LOOKS,
-    limits.LOOKS, conditions.LOOKS, resets.LOOKS, results.LOOKS, states.LOOKS, publishers.LOOKS, endless_spins.LOOKS,
-    rates.LOOKS, none_tests.LOOKS, one_array.LOOKS, shared_objects.LOOKS, endless_waits.LOOKS, own_calls.LOOKS,
-    limited_values.LOOKS, locks.LOOKS, unchanged_conditions.LOOKS, filtered_rays.LOOKS, map_starts.LOOKS,
-    colours.LOOKS, whole_arrays.LOOKS,
-)  # fmt: skip
+LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
+
+
+@dataclass(frozen=True)
+class Run:
+    """What is known of a run before it: its length [s], the fields of its messages by class, its trials' parameters."""
+
+    duration: float = LONGEST_PERIOD
+    fields: Mapping[str, list[str]] = field(default_factory=dict)
+    names: Sequence[str] = ()
+
+
+Slip = Callable[[ast.Module], Iterator[Place]]
+SlipOfRun = Callable[[ast.Module, Run], Iterator[Place]]
+ROOM: Room[Slip] = Room(__name__)
+OF_RUNS: Room[SlipOfRun] = Room(__name__)
+
+
+def slip(function: Slip) -> Slip:
+    """Register a mistake that is certain by the text of a file."""
+    ROOM.add(function, function)
+    return function
+
+
+def slip_of_run(function: SlipOfRun) -> SlipOfRun:
+    """Register a mistake that is certain by the text of a file and its run; it is said before the others."""
+    OF_RUNS.add(function, function)
+    return function
 
 
 def slips(
     content: bytes,
     duration: float = LONGEST_PERIOD,
-    fields: Mapping[str, list[str]] = MappingProxyType({}),
+    fields: Mapping[str, list[str]] | None = None,
     names: Sequence[str] = (),
 ) -> Places:
     """Return `line` and `said`, the words of a sentence, of each such place; nothing if the file is not Python.
@@ -97,11 +55,11 @@ def slips(
     `duration` [s] is the length of the run, `fields` are those of the messages of the exercise, by class;
     `names` those of the parameters that its trials give the node.
     """
-    return places_in(content, lambda tree: _places(tree, duration, fields, names))
+    run = Run(duration, fields or {}, names)
+    return places_in(content, lambda tree: _places(tree, run))
 
 
-def _places(tree: ast.Module, duration: float, fields: Mapping[str, list[str]], names: Sequence[str]) -> Places:
-    found = [*periods(tree, duration), *unknown_fields(tree, fields), *parameters.declared_otherwise(tree, names)]
-    for room in ROOMS:
-        found += [place for look in room for place in look(tree)]
+def _places(tree: ast.Module, run: Run) -> Places:
+    found = [place for rule in OF_RUNS.rules() for place in findings(rule, tree, run)]
+    found += [place for rule in ROOM.rules() for place in findings(rule, tree)]
     return [{"line": line, "said": said} for line, said in found[:MOST]]

@@ -14,6 +14,7 @@ from gz_course.grader.exercise.grading import README
 from gz_course.grader.feedback.facts.origins import before_speeds, conditions
 from gz_course.grader.feedback.facts.own_ends import own_ends
 from gz_course.grader.feedback.launch_files import launch_places
+from gz_course.grader.feedback.rules import as_facts, faults_kept
 from gz_course.grader.feedback.slips import slips
 from gz_course.grader.feedback.suspects import suspects
 from gz_course.grader.kinds.bridge import read
@@ -46,8 +47,9 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
     beside += [path for path in exercise.folder.glob(f"{WORLDS}/*") if path.is_file()]
     given = {path.relative_to(exercise.folder).as_posix(): path.read_bytes() for path in beside}
-    files = submission.files | given
-    return RunPlan(submission.main, files, facts=_places(submission, exercise.duration))
+    with faults_kept() as faults:
+        places = _places(submission, exercise.duration)
+    return RunPlan(submission.main, submission.files | given, facts=places | as_facts(faults))
 
 
 def _places(submission: Submission, duration: float) -> dict[str, list[dict[str, Any]]]:

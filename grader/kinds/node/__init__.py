@@ -21,6 +21,7 @@ from gz_course.grader.feedback.facts.syntax import called, parsed
 from gz_course.grader.feedback.facts.time_reckoning import time_reckoning
 from gz_course.grader.feedback.facts.wall_clock import wall_clock
 from gz_course.grader.feedback.facts.whole_numbers import whole_numbers
+from gz_course.grader.feedback.rules import as_facts, faults_kept
 from gz_course.grader.feedback.slips import slips
 from gz_course.grader.feedback.slips.nodes.transforms import lookups, shared_headers
 from gz_course.grader.feedback.suspects import suspects
@@ -84,32 +85,33 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
     heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
     names = sorted({name for trial in exercise.trials for name in trial.parameters})
-    places = {
-        "before_speeds": before_speeds(content),
-        "called": [{"name": name} for name in sorted(called(parsed(content)) & OF_VALUES)],
-        "conditions": conditions(content),
-        "counters": counters(content),
-        "delays": delays(content),
-        "early_publishing": early_publishing(content),
-        "origins": origins(content),
-        "own_ends": own_ends(content),
-        "of_the_drive": of_the_drive(content),
-        "repetitions": repetitions(content),
-        "lookups": lookups(content),
-        "shared_headers": shared_headers(content),
-        "rhythm": rhythm(content),
-        "seldom_log": seldom_log(content),
-        "silent_log": silent_log(content),
-        "slips": slips(content, exercise.duration, message_fields(heard), names),
-        "suspects": suspects(content),
-        "time_reckoning": time_reckoning(content),
-        "wall_clock": wall_clock(content),
-        "whole_numbers": whole_numbers(content, float_fields(heard)),
-    }
+    with faults_kept() as faults:
+        places = {
+            "before_speeds": before_speeds(content),
+            "called": [{"name": name} for name in sorted(called(parsed(content)) & OF_VALUES)],
+            "conditions": conditions(content),
+            "counters": counters(content),
+            "delays": delays(content),
+            "early_publishing": early_publishing(content),
+            "origins": origins(content),
+            "own_ends": own_ends(content),
+            "of_the_drive": of_the_drive(content),
+            "repetitions": repetitions(content),
+            "lookups": lookups(content),
+            "shared_headers": shared_headers(content),
+            "rhythm": rhythm(content),
+            "seldom_log": seldom_log(content),
+            "silent_log": silent_log(content),
+            "slips": slips(content, exercise.duration, message_fields(heard), names),
+            "suspects": suspects(content),
+            "time_reckoning": time_reckoning(content),
+            "wall_clock": wall_clock(content),
+            "whole_numbers": whole_numbers(content, float_fields(heard)),
+        }
     facts = {
         name: [{"file": shown(submission.main)} | place for place in found] for name, found in places.items() if found
     }
-    return RunPlan(submission.main, submission.files, entries, facts, exercise.bridge_parameters)
+    return RunPlan(submission.main, submission.files, entries, facts | as_facts(faults), exercise.bridge_parameters)
 
 
 def run_loop() -> type[RunLoop]:

@@ -169,7 +169,7 @@ def _linear(ratio: float, body: Robot | None, wanted: float, pushes: str) -> str
 
 
 def _angular(ratio: float, body: Robot | None, wanted: float, pushes: str) -> str:
-    why = (next(filter(None, driving.turns_slowly(body, wanted)), "") if body else "") or pushes
+    why = (driving.turns_slowly(body, wanted) if body else "") or pushes
     if abs(ratio) < STILL:
         return f"it did not turn: {why}" if why else "it did not turn"
     if ratio < 0:

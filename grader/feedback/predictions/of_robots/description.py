@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.record.reading import Recording
 
 REQUESTED = re.compile(r"^\[create-\d+\] .*Requesting creation of an entity")
@@ -28,6 +29,7 @@ MEANINGS = (
 )
 
 
+@guarded("")
 def at_work_on(recording: Recording) -> str:
     """Return how large the robot is that create was asked for; empty if it was not asked, or it is not large."""
     lines = [line.text for line in recording.lines("log/student")]
@@ -37,6 +39,7 @@ def at_work_on(recording: Recording) -> str:
     return f"the robot has {joints} joints, far too many to be simulated" if joints > MANY else ""
 
 
+@guarded("")
 def description_meaning(said: str) -> str:
     """Return what to change, given what robot_state_publisher said; empty if that is unknown."""
     for pattern, words in MEANINGS:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.robots import Joint, Link, Plugin, Robot, Shape
 from gz_course.grader.score.steps import told
 
@@ -60,6 +61,7 @@ def wheels_of(robot: Robot) -> list[Wheel]:
     return found
 
 
+@guarded("")
 def does_not_drive(robot: Robot) -> str:
     """Return why the robot cannot roll ahead at all."""
     looks = (
@@ -76,6 +78,7 @@ def does_not_drive(robot: Robot) -> str:
     return next(filter(None, (look(robot) for look in looks)), "")
 
 
+@guarded("")
 def other_speed(robot: Robot, wanted: float, ratio: float) -> str:
     """Return why a robot is `ratio` times as fast as the `wanted` forward speed [m/s]."""
     looks = (
@@ -90,6 +93,7 @@ def other_speed(robot: Robot, wanted: float, ratio: float) -> str:
     return next(filter(None, (look(robot) for look in (*looks, *slow))), "")
 
 
+@guarded("")
 def no_plugin(robot: Robot) -> str:
     if robot.systems("DiffDrive"):
         return ""
@@ -97,12 +101,14 @@ def no_plugin(robot: Robot) -> str:
     return f"no plugin drives them: the robot has no gz::sim::systems::DiffDrive, it has {there}"
 
 
+@guarded("")
 def one_joint_twice(robot: Robot) -> str:
     plugin = plugin_of(robot)
     both = set(plugin.all("left_joint")) & set(plugin.all("right_joint")) if plugin is not None else set()
     return f"<left_joint> and <right_joint> of the plugin are both {min(both)}" if both else ""
 
 
+@guarded("")
 def limited_joint(robot: Robot) -> str:
     for wheel in wheels_of(robot):
         joint = wheel.joint
@@ -118,6 +124,7 @@ def between(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.arccos(min(1.0, cosine)))
 
 
+@guarded("")
 def along(direction: np.ndarray) -> str:
     """Return a direction in words: an axis of the robot, if it is one."""
     for name, axis in zip("xyz", np.eye(3), strict=True):
@@ -126,6 +133,7 @@ def along(direction: np.ndarray) -> str:
     return f"along ({' '.join(told(float(value)) for value in direction)})"
 
 
+@guarded("")
 def wrong_axis(robot: Robot) -> str:
     """Compare the axis of each wheel's joint with that of its cylinder."""
     for wheel in wheels_of(robot):
@@ -143,6 +151,7 @@ def wrong_axis(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def lies_flat(robot: Robot) -> str:
     """Compare the axle of each wheel with the direction to its side."""
     for wheel in wheels_of(robot):
@@ -160,6 +169,7 @@ def lies_flat(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def leans(robot: Robot) -> str:
     """Return that a wheel is tilted a little, so that it rolls on its edge; a large tilt is another fault."""
     for wheel in wheels_of(robot):
@@ -173,6 +183,7 @@ def leans(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def without_collision(robot: Robot) -> str:
     for wheel in wheels_of(robot):
         if not wheel.link.shapes:
@@ -180,6 +191,7 @@ def without_collision(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def hangs(robot: Robot, least: float = HANGS) -> str:
     """Compare the height of the wheels with that of the lowest part, which may be lower by less than `least` [m]."""
     wheels, low = wheels_of(robot), robot.lowest_link()
@@ -194,6 +206,7 @@ def hangs(robot: Robot, least: float = HANGS) -> str:
     )
 
 
+@guarded("")
 def of_one_side(robot: Robot) -> str:
     """Compare the sides of the wheels."""
     wheels = wheels_of(robot)
@@ -203,6 +216,7 @@ def of_one_side(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def other_radius(robot: Robot) -> str:
     plugin, wheels = plugin_of(robot), wheels_of(robot)
     if plugin is None:
@@ -231,6 +245,7 @@ def _double(ratio: float) -> str:
     return ", so <wheel_radius> is half of that" if abs(ratio - 0.5) < SAME else ""
 
 
+@guarded("")
 def unequal_wheels(robot: Robot) -> str:
     """Return in what the wheels of the two sides differ."""
     wheels = [wheel for wheel in wheels_of(robot) if wheel.radius]
@@ -246,6 +261,7 @@ def unequal_wheels(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def limited(robot: Robot, axis: str, wanted: float) -> str:
     """Return which limit of the plugin keeps it from the `wanted` speed [m/s or rad/s]; `axis` is linear or angular."""
     plugin, unit = plugin_of(robot), "m/s" if axis == "linear" else "rad/s"
@@ -260,6 +276,7 @@ def limited(robot: Robot, axis: str, wanted: float) -> str:
     return ""
 
 
+@guarded("")
 def too_slow_joint(robot: Robot, wanted: float) -> str:
     for wheel in wheels_of(robot):
         most = wheel.joint.velocity
@@ -271,6 +288,7 @@ def too_slow_joint(robot: Robot, wanted: float) -> str:
     return ""
 
 
+@guarded("")
 def slippery(robot: Robot) -> str:
     for wheel in wheels_of(robot):
         if wheel.shape is not None and wheel.shape.mu is not None and wheel.shape.mu < SLIPPERY:
@@ -278,6 +296,7 @@ def slippery(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def damped(robot: Robot) -> str:
     for wheel in wheels_of(robot):
         effort, damping = wheel.joint.effort, wheel.joint.damping
@@ -288,6 +307,7 @@ def damped(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def drags(robot: Robot) -> str:
     """Return what slides along the ground with friction, besides the wheels."""
     low, rolling = robot.lowest_link(), {wheel.link.name for wheel in wheels_of(robot)}
@@ -301,6 +321,7 @@ def drags(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def other_separation(robot: Robot) -> str:
     plugin, wheels = plugin_of(robot), wheels_of(robot)
     if plugin is None or len(wheels) != 2:
@@ -320,6 +341,7 @@ def _middle(wheel: Wheel) -> np.ndarray:
     return wheel.shape.position if wheel.shape is not None else wheel.joint.position
 
 
+@guarded("")
 def sides_exchanged(robot: Robot) -> str:
     """Return which joint is on the other side than its element of the plugin says."""
     for wheel in wheels_of(robot):
@@ -331,6 +353,7 @@ def sides_exchanged(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def beside_the_middle(robot: Robot) -> str:
     """Return where the middle between the wheels is, if that is not the origin of the robot."""
     wheels = wheels_of(robot)
@@ -345,8 +368,13 @@ def beside_the_middle(robot: Robot) -> str:
     )
 
 
-def turns_slowly(robot: Robot, wanted: float) -> Iterator[str]:
-    """Yield why a robot turns more slowly than the `wanted` rate [rad/s]."""
+@guarded("")
+def turns_slowly(robot: Robot, wanted: float) -> str:
+    """Return the first of why a robot turns more slowly than the `wanted` rate [rad/s]."""
+    return next(filter(None, _slow_turns(robot, wanted)), "")
+
+
+def _slow_turns(robot: Robot, wanted: float) -> Iterator[str]:
     yield other_separation(robot)
     yield limited(robot, "angular", abs(wanted))
     yield slippery(robot)

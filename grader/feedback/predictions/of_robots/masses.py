@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.robots import Robot
 
 HEAVIEST = 300.0  # [kg] of a link: a robot of that size made of steel is lighter
@@ -11,6 +12,7 @@ THIN = 80.0  # [kg/m^3] of a body as its largest box has it: a robot full of air
 LIGHTEST = 1e-3  # [kg] of a link that can collide
 
 
+@guarded("")
 def odd_mass(robot: Robot) -> str:
     """Return the link whose mass is implausible; empty if there is none."""
     heavy = max(robot.links, key=lambda link: link.mass)
@@ -23,6 +25,7 @@ def odd_mass(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def too_light(robot: Robot) -> str:
     """Return the link whose mass is too small for the size of its largest box; empty if there is none."""
     for link in robot.links:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.robots import LUMPED
 
 PAIR = re.compile(r"'([^']+)' and '([^']+)' are ([\d.]+) m inside each other")
 
 
+@guarded("")
 def overlap(warnings: Iterable[str], robot: str) -> str:
     """Return which two parts of the robot overlap, and by how much; empty if none do."""
     for found in filter(None, map(PAIR.search, warnings)):

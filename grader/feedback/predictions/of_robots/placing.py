@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.steps import told
 
 NEAR = 0.02  # [m] and [rad] between equal values: a robot settles a little where it comes
@@ -12,6 +13,7 @@ EXACT = 0.001  # [rad]: a heading in degrees that is taken for radians is small
 ALIKE = 0.05  # wanted values that are closer to each other cannot be told apart
 
 
+@guarded("")
 def misplaced(
     wanted: Mapping[str, float], place: Mapping[str, float], wrong: list[str], names: Mapping[str, str]
 ) -> str:

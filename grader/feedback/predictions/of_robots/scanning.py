@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from gz_course.grader.feedback.predictions.of_robots.topics import heard_elsewhere, topic_of
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.graphs import Bridged
 from gz_course.grader.score.robots import Robot, Sensor
 from gz_course.grader.score.steps import told
@@ -20,6 +21,7 @@ def lidars(robot: Robot) -> list[Sensor]:
     return [sensor for sensor in robot.sensors if sensor.kind in LIDARS]
 
 
+@guarded("")
 def of_gazebo_classic(robot: Robot) -> str:
     """Return that all lidars have a type that Gazebo reads and does not simulate.
 
@@ -34,6 +36,7 @@ def of_gazebo_classic(robot: Robot) -> str:
     )
 
 
+@guarded("")
 def no_scan(robot: Robot, bridge: Bridged) -> str:
     """Return why nothing publishes on the Gazebo topic of a bridge."""
     found = lidars(robot)
@@ -51,6 +54,7 @@ def no_scan(robot: Robot, bridge: Bridged) -> str:
     return ""
 
 
+@guarded("")
 def few_scans(robot: Robot, least: float) -> str:
     """Return that the lidar is slower than `least` [Hz]."""
     for sensor in lidars(robot):
@@ -60,6 +64,7 @@ def few_scans(robot: Robot, least: float) -> str:
     return ""
 
 
+@guarded("")
 def narrow(robot: Robot, turn: float) -> str:
     """Return which of the lidar's angles or samples make it see less than `turn` [rad]."""
     for sensor in lidars(robot):
@@ -86,6 +91,7 @@ def narrow(robot: Robot, turn: float) -> str:
     return ""
 
 
+@guarded("")
 def other_frame(robot: Robot, frame: str, given: str) -> str:
     """Return that the lidar states the frame `given`."""
     if any(sensor.text("gz_frame_id") == given for sensor in lidars(robot)):
@@ -93,6 +99,7 @@ def other_frame(robot: Robot, frame: str, given: str) -> str:
     return ""
 
 
+@guarded("")
 def range_of(robot: Robot) -> str:
     for sensor in lidars(robot):
         for base in ("lidar/range", "ray/range"):
@@ -101,6 +108,7 @@ def range_of(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def tilted(robot: Robot) -> str:
     """Return by how much the lidar is tilted."""
     for sensor in lidars(robot):
@@ -110,6 +118,7 @@ def tilted(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def enclosed(robot: Robot) -> str:
     """Return which part of the robot the lidar is inside of; its own housing is smaller than `HOUSING`."""
     for sensor in lidars(robot):
@@ -125,6 +134,7 @@ def enclosed(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def height_and_tilt(robot: Robot, height: float) -> str:
     """Return how the lidar is tilted, or how high above the ground it is; `height` [m] is that of the robot."""
     if said := tilted(robot):

@@ -13,6 +13,7 @@ from gz_course.grader.feedback.predictions.of_robots.driving import (
     wrong_axis,
 )
 from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass, too_light
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.robots import LEVEL, Robot
 from gz_course.grader.score.steps import told
 
@@ -20,6 +21,7 @@ APART = 0.01  # [m] between the ground and what stands on it, or is in it, when 
 FEET = 0.025  # [m] above its lowest point up to which a robot's parts are tried as feet
 
 
+@guarded("")
 def without_collisions(robot: Robot) -> str:
     """Return that nothing of the robot can touch the ground."""
     if any(link.shapes for link in robot.links):
@@ -27,6 +29,7 @@ def without_collisions(robot: Robot) -> str:
     return "no link of it has a <collision>, so it falls through the ground"
 
 
+@guarded("")
 def above_the_ground(robot: Robot, height: float) -> str:
     """Return how far above the ground a robot came whose origin came at `height` [m]."""
     low = robot.lowest_link()
@@ -39,6 +42,7 @@ def above_the_ground(robot: Robot, height: float) -> str:
     )
 
 
+@guarded("")
 def in_the_ground(robot: Robot, height: float) -> str:
     """Return how deep in the ground a robot came whose origin came at `height` [m]."""
     low = robot.lowest_link()
@@ -51,6 +55,7 @@ def in_the_ground(robot: Robot, height: float) -> str:
     )
 
 
+@guarded("")
 def falls_over(robot: Robot) -> str:
     """Return that the centre of mass is not above the points on which the robot stands."""
     low = robot.lowest_link()
@@ -79,6 +84,7 @@ def falls_over(robot: Robot) -> str:
     return ""
 
 
+@guarded("")
 def tips_over(robot: Robot) -> str:
     """Return why a robot that stood tips over once its wheels turn."""
     if said := wrong_axis(robot) or odd_mass(robot) or too_light(robot):

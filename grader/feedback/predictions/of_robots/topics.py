@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.graphs import Bridged
 from gz_course.grader.score.robots import Robot
 
 
+@guarded("")
 def topic_of(text: str, default: str) -> str:
     """Return the topic that Gazebo makes of the text of a `<topic>`: absolute, with underscores for blanks."""
     name = text.strip().replace(" ", "_").strip("/")
     return f"/{name}" if name else default
 
 
+@guarded("")
 def heard_elsewhere(who: str, topic: str, bridge: Bridged) -> str:
     """Say that plugin or sensor and the bridge use different Gazebo topics."""
     return (
@@ -22,6 +25,7 @@ def heard_elsewhere(who: str, topic: str, bridge: Bridged) -> str:
     )
 
 
+@guarded("")
 def why_not_carried(
     made: Iterable[Bridged],
     topic: str,
@@ -64,6 +68,7 @@ def why_not_carried(
     return ""
 
 
+@guarded("")
 def commands_elsewhere(robot: Robot, made: Iterable[Bridged], topic: str) -> str:
     """Return that the bridge takes commands to another Gazebo topic than the one DiffDrive listens to."""
     plugins = robot.systems("DiffDrive")
@@ -74,6 +79,7 @@ def commands_elsewhere(robot: Robot, made: Iterable[Bridged], topic: str) -> str
     return "" if listens == bridge.gz_topic else heard_elsewhere("DiffDrive listens to", listens, bridge)
 
 
+@guarded("")
 def no_joint_states(robot: Robot, bridge: Bridged) -> str:
     """Return why nothing publishes joint states on the Gazebo topic of a bridge."""
     plugins = robot.systems("JointStatePublisher")
@@ -88,6 +94,7 @@ def no_joint_states(robot: Robot, bridge: Bridged) -> str:
     return "" if bridge.gz_topic in topics else heard_elsewhere("JointStatePublisher publishes on", topics[0], bridge)
 
 
+@guarded("")
 def few_joints(robot: Robot) -> str:
     """Return that JointStatePublisher names only some of the joints."""
     for plugin in robot.systems("JointStatePublisher"):

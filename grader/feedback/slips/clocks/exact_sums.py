@@ -11,10 +11,12 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 MOST_STEPS = 100_000  # added at most; no timer of a run fires that often
 
 
+@slip
 def compared_exactly(tree: ast.AST) -> Iterator[Place]:
     """Find `elapsed == 1.0` where elapsed is only set to a number and to itself plus a step."""
     known = named_numbers(tree)
@@ -116,6 +118,3 @@ def _around_multiple(start: Number, step: Number, factor: Number, limit: Number)
         return None
     low, high = max(value for value in values if value < limit), min(value for value in values if value > limit)
     return (low, high) if values[0] < values[-1] else (high, low)
-
-
-LOOKS = (compared_exactly,)

@@ -8,11 +8,13 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
 from gz_course.grader.feedback.facts.wall_clock import ASKED, dotted, imported
+from gz_course.grader.feedback.slips import slip
 
 OF_STAMPS = re.compile(r"\bheader\.stamp\b|\.nanosec\b|get_clock\(\)\.now\(\)")
 STEPS = 4  # names followed at most
 
 
+@slip
 def mixed(tree: ast.Module) -> Iterator[Place]:
     """Find `time.time() - stamp` and comparisons of the two, also by way of names."""
     names = imported(tree)
@@ -64,6 +66,3 @@ def _of_stamps(node: ast.AST, values: dict[str, list[ast.expr]], steps: int) -> 
     if OF_STAMPS.search(unparse(node)):
         return True
     return steps > 0 and any(_of_stamps(each, values, steps - 1) for each in _known(node, values))
-
-
-LOOKS = (mixed,)

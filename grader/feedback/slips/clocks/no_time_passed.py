@@ -6,8 +6,10 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, children, functions, last_name, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 
+@slip
 def updated_too_early(tree: ast.AST) -> Iterator[Place]:
     """Find `self.last = now` and after it `now - self.last`, where neither gets another value in between."""
     own = {function.name: function for function in functions(tree)}
@@ -65,6 +67,3 @@ def _passed_on(call: ast.Call, function: ast.FunctionDef, kept: dict[str, tuple[
     }
     if inner:
         yield from _in_block(function.body, inner, {})
-
-
-LOOKS = (updated_too_early,)

@@ -7,11 +7,13 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 IN_SECONDS = re.compile(r"1e-?0?9|10\s*\*\*\s*-?9|1_?000_?000_?000(?:\.0)?|1000000000")
 ERROR = re.compile(r"err|diff|dev", re.IGNORECASE)
 
 
+@slip
 def per_nanosecond(tree: ast.AST) -> Iterator[Place]:
     """Find `(error - last_error) / dt` and `total += error * dt` where dt is a difference of nanoseconds."""
     text = unparse(tree)
@@ -67,6 +69,3 @@ def _is_span(value: ast.expr, times: set[str]) -> bool:
     if isinstance(value, ast.Attribute) and value.attr == "nanoseconds":
         return isinstance(value.value, ast.BinOp) and isinstance(value.value.op, ast.Sub)
     return isinstance(value, ast.BinOp) and isinstance(value.op, ast.Sub) and _is_time(value.left, times)
-
-
-LOOKS = (per_nanosecond,)

@@ -8,8 +8,12 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
+
+BEFORE = ("no_effect", "publishers")
 
 
+@slip
 def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
     """Find the nanoseconds within a second compared with a whole second or more, which they never reach."""
     numbers = named_numbers(tree)
@@ -26,6 +30,7 @@ def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def sums_of_parts(tree: ast.AST) -> Iterator[Place]:
     """Find a sum of seconds and nanoseconds in which the second part has another unit than the first."""
     numbers, names = named_numbers(tree), _names_of_parts(tree)
@@ -74,6 +79,7 @@ def _factor(node: ast.expr, part: str, names: Mapping[str, str], numbers: Mappin
     return None
 
 
+@slip
 def nanoseconds_alone(tree: ast.AST) -> Iterator[Place]:
     """Find the nanoseconds of a stamp used as its time, in a file that reads the seconds nowhere."""
     names = {last_name(node) for node in nodes_of(tree, ast.Attribute)}
@@ -89,6 +95,3 @@ def nanoseconds_alone(tree: ast.AST) -> Iterator[Place]:
                 "second, and sec is read nowhere: Time.from_msg(stamp).nanoseconds is the whole time",
             )
             return
-
-
-LOOKS = (parts_of_a_second, sums_of_parts, nanoseconds_alone)

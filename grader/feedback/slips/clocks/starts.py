@@ -7,11 +7,13 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 TIME = re.compile(r"\bnow\b|clock|stamp|nanosec|time", re.IGNORECASE)  # in what makes a time
 LONG = 1.0  # [s] or more is no time between two calls
 
 
+@slip
 def set_anew(tree: ast.AST) -> Iterator[Place]:
     """Find `now - self.start` that is compared with seconds, where each call also sets `self.start = now`."""
     for function in functions(tree):
@@ -53,6 +55,7 @@ def _is_long(value: ast.expr) -> bool:
     return any(number >= LONG for number in numbers)
 
 
+@slip
 def added_up(tree: ast.AST) -> Iterator[Place]:
     """Find `self.driven += now - self.start` in a callback that does not set the start anew."""
     once = {
@@ -88,6 +91,3 @@ def added_up(tree: ast.AST) -> Iterator[Place]:
 
 def _asks_for_none(test: ast.expr) -> bool:
     return isinstance(test, ast.UnaryOp) or unparse(test).endswith("is None")
-
-
-LOOKS = (set_anew, added_up)

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 UNITS = {1e-9: "nanoseconds", 1e-6: "microseconds", 1e-3: "milliseconds", 1.0: "seconds", 60.0: "minutes"}
 SHORTEST = 0.02  # [s] a shorter time, written in another unit than seconds, is compared with by mistake
@@ -22,6 +23,7 @@ STEPS = 8  # names followed at most
 HOLDS = ">= holds from then on"
 
 
+@slip
 def wrong_units(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons of a time with a number that is no usual time in the unit of the former."""
     numbers = named_numbers(tree)
@@ -95,24 +97,7 @@ def _durations(tree: ast.AST, numbers: Mapping[str, Number]) -> Iterator[Place]:
                 yield node.lineno, f"{unparse(node)} lasts {seconds:g} s: 5 s are Duration(seconds=5)"
 
 
-def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
-    """Find a Time that is asked whether it equals a number, which it never does."""
-    numbers, values = named_numbers(tree), _values(tree)
-    for node in nodes_of(tree, ast.Compare):
-        if not isinstance(node.ops[0], ast.Eq | ast.NotEq):
-            continue
-        code = unparse(node.left)
-        now = code.endswith("get_clock().now()") or [
-            unparse(each).endswith("get_clock().now()") for each in values.get(code, [])
-        ] == [True]
-        if now and number(node.comparators[0], numbers) is not None:
-            yield (
-                node.lineno,
-                f"{unparse(node)[:70]}: {code} is a Time and never equal to a number: the seconds that have passed "
-                "are (now - start).nanoseconds / 1e9, and >= holds from a moment on",
-            )
-
-
+@slip
 def negative_times(tree: ast.AST) -> Iterator[Place]:
     """Find `start - now`, which is negative and so always less than any limit."""
     values = _values(tree)
@@ -134,6 +119,25 @@ def negative_times(tree: ast.AST) -> Iterator[Place]:
                 node.lineno,
                 f"{left} - {right} is negative, because {right} is the later one: the time that has passed is "
                 f"{right} - {left}",
+            )
+
+
+@slip
+def times_as_numbers(tree: ast.AST) -> Iterator[Place]:
+    """Find a Time that is asked whether it equals a number, which it never does."""
+    numbers, values = named_numbers(tree), _values(tree)
+    for node in nodes_of(tree, ast.Compare):
+        if not isinstance(node.ops[0], ast.Eq | ast.NotEq):
+            continue
+        code = unparse(node.left)
+        now = code.endswith("get_clock().now()") or [
+            unparse(each).endswith("get_clock().now()") for each in values.get(code, [])
+        ] == [True]
+        if now and number(node.comparators[0], numbers) is not None:
+            yield (
+                node.lineno,
+                f"{unparse(node)[:70]}: {code} is a Time and never equal to a number: the seconds that have passed "
+                "are (now - start).nanoseconds / 1e9, and >= holds from a moment on",
             )
 
 
@@ -229,6 +233,3 @@ def _common(units: list[float | None]) -> float | None:
     """Return the unit if all are equal and known."""
     first = units[0] if units else None
     return first if first is not None and all(u is not None and math.isclose(u, first) for u in units) else None
-
-
-LOOKS = (wrong_units, negative_times, times_as_numbers)

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
@@ -21,6 +22,20 @@ def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
             yield node, name
 
 
+@slip
+def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
+    """Find pi // 2, which is 1.0."""
+    for node in walk(tree):
+        match node:
+            case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
+                text = unparse(node)
+                if unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
+                    angle = -math.pi if text.startswith("-") else math.pi
+                    right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
+                    yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
+
+
+@slip
 def degrees_for_radians(tree: ast.AST) -> Iterator[Place]:
     """Find sin(90) and sin(degrees(x)), which take radians, and radians(scan.angle_min), which is in radians."""
     known = named_numbers(tree)
@@ -37,6 +52,7 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Place]:
             yield call.lineno, f"{code}: {given.attr} of a LaserScan is in radians already"
 
 
+@slip
 def exchanged_atan2(tree: ast.AST) -> Iterator[Place]:
     for call, name in _calls(tree):
         if name not in ("atan2", "arctan2") or len(call.args) != 2:
@@ -46,6 +62,18 @@ def exchanged_atan2(tree: ast.AST) -> Iterator[Place]:
             yield call.lineno, f"{unparse(call)[:60]}: {name} takes y first and x second"
 
 
+def _axis(node: ast.expr) -> str:
+    """Return x or y if that is what an expression is called, alone or as a difference; else an empty text."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
+        left, right = _axis(node.left), _axis(node.right)
+        return left if left == right else ""
+    if isinstance(node, ast.Name | ast.Attribute):
+        match = re.search(r"(?:^[a-z]?|[._]|d|delta)([xy])$", unparse(node))
+        return match[1] if match else ""
+    return ""
+
+
+@slip
 def quotients_for_directions(tree: ast.AST) -> Iterator[Place]:
     """Find atan(dy / dx), which knows no direction to the back."""
     for call, name in _calls(tree):
@@ -60,17 +88,7 @@ def quotients_for_directions(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-def _axis(node: ast.expr) -> str:
-    """Return x or y if that is what an expression is called, alone or as a difference; else an empty text."""
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
-        left, right = _axis(node.left), _axis(node.right)
-        return left if left == right else ""
-    if isinstance(node, ast.Name | ast.Attribute):
-        match = re.search(r"(?:^[a-z]?|[._]|d|delta)([xy])$", unparse(node))
-        return match[1] if match else ""
-    return ""
-
-
+@slip
 def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
     """Find `yaw = orientation.z`: the z of a quaternion is the sine of half the angle."""
     for node in nodes_of(tree, ast.Assign):
@@ -87,18 +105,7 @@ def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
-    """Find pi // 2, which is 1.0."""
-    for node in walk(tree):
-        match node:
-            case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
-                text = unparse(node)
-                if unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
-                    angle = -math.pi if text.startswith("-") else math.pi
-                    right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
-                    yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
-
-
+@slip
 def rays_from_the_end(tree: ast.AST) -> Iterator[Place]:
     """Find the bearing `scan.angle_max + i * scan.angle_increment`, which begins where a scan ends."""
     counters = {
@@ -128,6 +135,7 @@ def _of_a_frame(tree: ast.AST, value: ast.expr) -> bool:
     )
 
 
+@slip
 def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
     """Find the x of a ray that is made with its sine, with the y that is made with its cosine."""
     for function in functions(tree):
@@ -149,14 +157,3 @@ def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
                 f"x = {unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
                 "ahead, has its cosine, and y, to the left, its sine",
             )
-
-
-LOOKS = (
-    whole_parts_of_pi,
-    degrees_for_radians,
-    exchanged_atan2,
-    quotients_for_directions,
-    quaternions_for_angles,
-    rays_from_the_end,
-    exchanged_sines,
-)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, assigned, called, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.language.own_calls import calls_of_own, parameters
 
 WHOLE = (255, 256)
@@ -14,6 +15,7 @@ SAME = frozenset({"astype", "copy", "squeeze", "transpose", "split", "moveaxis",
 STEPS = 4  # assignments and calls that hand a picture on, at most
 
 
+@slip
 def shares_as_bytes(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons such as `red > 50` that no share of 255 ever fulfils."""
     names = _shares(tree) if called(tree) & {"imgmsg_to_cv2", "frombuffer"} else set()
@@ -63,6 +65,3 @@ def _is_share(node: ast.expr, names: set[str]) -> bool:
         case ast.Call(func=ast.Attribute(value=owner) as method) if last_name(method) in SAME:
             return any(_is_share(each, names) for each in (owner, *node.args[:1]))
     return False
-
-
-LOOKS = (shares_as_bytes,)

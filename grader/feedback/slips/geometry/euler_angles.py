@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 MAKES = "euler_from_quaternion"
 HEADING = re.compile(r"yaw|heading|theta|\bth\b")
@@ -17,6 +18,7 @@ def _is_euler(node: ast.AST) -> bool:
     return isinstance(node, ast.Call) and last_name(node.func) == MAKES
 
 
+@slip
 def other_angle(tree: ast.AST) -> Iterator[Place]:
     """Find `yaw, pitch, roll = euler_from_quaternion(q)`, and its first element taken for the heading."""
     if MAKES in {function.name for function in functions(tree)}:
@@ -42,6 +44,7 @@ def _said(name: str, place: int) -> str:
     )
 
 
+@slip
 def other_order(tree: ast.AST) -> Iterator[Place]:
     """Find `euler_from_quaternion([q.w, q.x, q.y, q.z])`: w is the last one."""
     for call, name in calls(tree):
@@ -50,6 +53,3 @@ def other_order(tree: ast.AST) -> Iterator[Place]:
             parts = "".join(last_name(each) for each in given.elts)
             if sorted(parts) == sorted("xyzw") and parts != "xyzw":
                 yield call.lineno, f"{MAKES}() takes x, y, z, w in this order, and gets {', '.join(parts)}"
-
-
-LOOKS = (other_angle, other_order)

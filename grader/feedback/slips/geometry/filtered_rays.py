@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
 MASKS = frozenset({"isfinite", "isnan", "isinf", "logical_and", "logical_or", "logical_not"})
@@ -15,6 +16,7 @@ ADVICE = (
 )
 
 
+@slip
 def numbered_after_filtering(tree: ast.AST) -> Iterator[Place]:
     """Find `angle_increment * np.arange(len(good))`, where `good` holds only some of the ranges, and the like."""
     for function in functions(tree):
@@ -134,6 +136,7 @@ class _Kinds:
         return unparse(of) if self._kind(of, node.lineno) == "filtered" else ""
 
 
+@slip
 def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
     """Find `angle += scan.angle_increment` behind a `continue` of its loop, or below an `if` that looks at the ray."""
     for loop in nodes_of(tree, ast.For):
@@ -161,6 +164,3 @@ def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
 
 def _steps(node: ast.AST) -> bool:
     return isinstance(node, ast.AugAssign) and "angle_increment" in unparse(node.value)
-
-
-LOOKS = (numbered_after_filtering, left_out_before_the_next_angle)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, set_to, unparse, walk
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.language.own_calls import calls_of_own, parameters
 
 Values = Mapping[str, float]
@@ -21,6 +22,7 @@ FAR = 1000.0  # a value beyond all limits
 CLIP = ast.parse("def clip(value, low, high):\n    return min(high, max(low, value))").body[0]
 
 
+@slip
 def value_as_limit(tree: ast.AST) -> Iterator[Place]:
     """Find calls of an own function that limits, or of `np.clip`, that limit a number by what should be limited."""
     known, locals_of = named_numbers(tree), _values_in_functions(tree)
@@ -148,6 +150,3 @@ def _values_in_functions(tree: ast.AST) -> dict[int, dict[str, list[ast.expr]]]:
         values = set_to(function)
         found.update({id(call): values for call, _ in calls(function)})
     return found
-
-
-LOOKS = (value_as_limit,)

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, calls, last_name, unparse
+from gz_course.grader.feedback.slips import slip
 
 OTHER = {"min": "max", "max": "min"}
 LIMITS = 2  # arguments of min and of max
 
 
+@slip
 def exchanged(tree: ast.AST) -> Iterator[Place]:
     """Find `min(-most, max(most, value))`, which is always `-most`, and `np.clip(value, most, -most)`."""
     known = named_numbers(tree)
@@ -43,6 +45,3 @@ def _below(low: ast.expr, high: ast.expr, known: dict[str, int | float]) -> bool
         return first < second
     negative = isinstance(low, ast.UnaryOp) and isinstance(low.op, ast.USub)
     return negative and unparse(low) == f"-{unparse(high)}" and isinstance(high, ast.Name | ast.Attribute)
-
-
-LOOKS = (exchanged,)

@@ -6,8 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, children, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 
+@slip
 def first_position_subtracted(tree: ast.AST) -> Iterator[Place]:
     """Find `p.x - self.start[0]`, where the start is kept once, and p.x is used for nothing else.
 
@@ -121,6 +123,3 @@ def _is_kept(node: ast.AST, parent: dict[ast.AST, ast.AST], kept: set[str]) -> b
         for target in above.targets
         for each in (target.elts if isinstance(target, ast.Tuple) else [target])
     )
-
-
-LOOKS = (first_position_subtracted,)

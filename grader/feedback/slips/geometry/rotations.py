@@ -19,6 +19,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.slips import slip
 
 SOME = 0.7  # [rad] at which a pair is tried
 APART = 3  # lines between the two
@@ -48,6 +49,7 @@ def pairs(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, Pair]]:
             yield function, ((first, row), (second, below))
 
 
+@slip
 def no_rotation(tree: ast.AST) -> Iterator[Place]:
     """Find `x = a * cos(h) - b * sin(h)` with `y = a * cos(h) + b * sin(h)`."""
     for _, ((first, row), (second, below)) in pairs(tree):
@@ -64,6 +66,7 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def changed_between(tree: ast.AST) -> Iterator[Place]:
     """Find `x = x * c - y * s` with `y = x * s + y * c` after it, which reads the x that has changed."""
     for function, ((first, row), (second, _)) in pairs(tree):
@@ -108,6 +111,3 @@ def _terms(node: ast.expr, sign: float) -> Iterator[tuple[ast.expr, float]]:
             yield ast.BinOp(left=inner, op=ast.Mult(), right=right), -sign
         case _:
             yield node, sign
-
-
-LOOKS = (no_rotation, changed_between)

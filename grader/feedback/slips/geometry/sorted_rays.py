@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 FINDS = frozenset({"index", "argmin", "nanargmin"})
 ELEMENTWISE = frozenset({"hypot", "abs", "sqrt", "fabs"})
@@ -18,6 +19,7 @@ DONE = {
 }
 
 
+@slip
 def places_for_rays(tree: ast.AST) -> Iterator[Place]:
     """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
     for function in functions(tree):
@@ -113,6 +115,7 @@ def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[
                     yield unparse(target), (node.lineno, unparse(call), how)
 
 
+@slip
 def places_in_masked(tree: ast.AST) -> Iterator[Place]:
     """Find `angles[np.argmin(ranges[valid])]`: the place counts in what is left, and angles has all rays."""
     for function in functions(tree):
@@ -172,6 +175,3 @@ def _mask(node: ast.expr, masked: dict[str, str]) -> str:
         name = isinstance(part, ast.Name) and not part.id.startswith(("i", "k", "n", "j"))
         return unparse(part) if name or isinstance(part, ast.Compare) else ""
     return masked.get(text, "")
-
-
-LOOKS = (places_for_rays, places_in_masked)

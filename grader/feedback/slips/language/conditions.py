@@ -7,12 +7,14 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, is_none, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}
 
 
+@slip
 def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
     """Find `x > 0 or x < 5`, which always holds, and `x > 5 and x < 0`, which never does."""
     numbers = named_numbers(tree)
@@ -39,6 +41,7 @@ def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
             yield node.lineno, f"{code} never holds: no {name} is above the larger bound and below the smaller one"
 
 
+@slip
 def the_same_bound(tree: ast.AST) -> Iterator[Place]:
     """Find `low <= x <= low`, which only one value meets, or none."""
     for node in walk(tree):
@@ -81,6 +84,7 @@ def _order(low: ast.expr, high: ast.expr, numbers: Mapping[str, Number]) -> int:
     return {("range_min", "range_max"): -1, ("range_max", "range_min"): 1}.get((names[0], names[1]), 0)
 
 
+@slip
 def none_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.start is None: self.begin = now` in a file where nothing else than None is put into self.start."""
     values: dict[str, list[ast.expr]] = {}
@@ -123,6 +127,7 @@ def _asked(test: ast.expr) -> str:
     return ""
 
 
+@slip
 def none_again(tree: ast.AST) -> Iterator[Place]:
     """Find `start = None` and then `if start is None:` in one block, with nothing in between that sets the name."""
     for block in blocks(tree):
@@ -144,6 +149,7 @@ def none_again(tree: ast.AST) -> Iterator[Place]:
                     none[made] = statement.lineno
 
 
+@slip
 def implied(tree: ast.AST) -> Iterator[Place]:
     """Find `elif x >= 5:` below `if x >= 0:`, which leaves nothing for it."""
     numbers = named_numbers(tree)
@@ -165,6 +171,7 @@ def implied(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
     """Find `deadline = now + Duration(seconds=5)` and then `now < deadline` in one call."""
     for function in functions(tree):
@@ -188,6 +195,7 @@ def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
                         return
 
 
+@slip
 def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
     """Find `if late and not self.moving:` where self.moving begins as True and only that block changes it."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -212,8 +220,3 @@ def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
                             f"the code below this condition never runs: {name} is {first} from the start, and only "
                             "these lines change it",
                         )
-
-
-LOOKS = (
-    of_two_bounds, the_same_bound, none_for_ever, none_again, implied, deadline_of_now, flag_of_its_own_block,
-)  # fmt: skip

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import LONGEST_PERIOD, Run, slip, slip_of_run
 from gz_course.grader.feedback.slips.nodes.callbacks import handed_over
 
-LONGEST_PERIOD = 60.0  # [s] a longer period of a timer was hardly meant
+BEFORE = ("conditions",)
+
 ACTIONS = frozenset({
     "cancel", "publish", "spin", "init", "shutdown", "destroy_node", "reset", "succeed", "canceled", "abort",
     "publish_feedback", "clear", "append", "popleft",
@@ -18,6 +20,7 @@ TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # metho
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 
+@slip
 def constructors(tree: ast.AST) -> Iterator[Place]:
     for each in nodes_of(tree, ast.ClassDef):
         for node in each.body:
@@ -30,6 +33,7 @@ def constructors(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def main_not_called(tree: ast.Module) -> Iterator[Place]:
     """Find a function main that no code of the module calls."""
     main = next((node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == "main"), None)
@@ -43,6 +47,7 @@ def main_not_called(tree: ast.Module) -> Iterator[Place]:
         )
 
 
+@slip
 def not_called(tree: ast.AST) -> Iterator[Place]:
     """Find a statement that only names a function, such as `self.timer.cancel`, or a method of the file."""
     own = {f"self.{function.name}" for function in functions(tree) if not function.decorator_list}
@@ -53,9 +58,10 @@ def not_called(tree: ast.AST) -> Iterator[Place]:
                 yield node.lineno, f"{name} without brackets names the function and does not call it: {name}(...)"
 
 
-def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
-    """Find a timer whose period [s] is longer than `longest`, or 0 because whole numbers were divided."""
-    known = named_numbers(tree)
+@slip_of_run
+def periods(tree: ast.AST, run: Run) -> Iterator[Place]:
+    """Find a timer whose period [s] is longer than the run, or 0 because whole numbers were divided."""
+    known, longest = named_numbers(tree), run.duration
     for call, name in calls(tree):
         given = (
             call.args[0] if call.args else next((k.value for k in call.keywords if k.arg == "timer_period_sec"), None)
@@ -82,24 +88,7 @@ def periods(tree: ast.AST, longest: float = LONGEST_PERIOD) -> Iterator[Place]:
             yield call.lineno, f"{code} is 0, because // leaves out the fraction: / divides numbers"
 
 
-def long_sleeps(tree: ast.AST) -> Iterator[Place]:
-    """Find a sleep of minutes with a publish() behind it in its block, which hardly waits for that."""
-    known = named_numbers(tree)
-    for block in (node.body for node in nodes_of(tree, ast.Module, ast.FunctionDef)):
-        for place, statement in enumerate(block):
-            call = statement.value if isinstance(statement, ast.Expr) else None
-            if not isinstance(call, ast.Call) or last_name(call.func) != "sleep" or not call.args:
-                continue
-            seconds = number(call.args[0], known)
-            published = any(name == "publish" for behind in block[place:] for _, name in calls(behind))
-            if seconds is not None and seconds >= LONGEST_PERIOD and published:
-                yield (
-                    call.lineno,
-                    f"{unparse(call)} takes seconds: what follows runs only after {seconds / 60:.0f} minutes; "
-                    f"{seconds:g} ms are {seconds / 1000:g}",
-                )
-
-
+@slip
 def decimal_commas(tree: ast.AST) -> Iterator[Place]:
     for node in walk(tree):
         values: list[ast.expr] = []
@@ -112,15 +101,7 @@ def decimal_commas(tree: ast.AST) -> Iterator[Place]:
             yield values[0].lineno, _comma(values)
 
 
-def _two_whole(values: list[ast.expr]) -> bool:
-    return len(values) == 2 and all(isinstance(v, ast.Constant) and isinstance(v.value, int) for v in values)
-
-
-def _comma(values: list[ast.expr]) -> str:
-    ahead, behind = (unparse(value) for value in values)
-    return f"{ahead}, {behind} are two numbers: Python writes the decimal point as a point, {ahead}.{behind}"
-
-
+@slip
 def sets_for_numbers(tree: ast.AST) -> Iterator[Place]:
     """Find `{x}` where a number or a text belongs: braces make a set outside of an f-string."""
     for node in walk(tree):
@@ -135,6 +116,16 @@ def sets_for_numbers(tree: ast.AST) -> Iterator[Place]:
                 yield value.lineno, f"{{{inside}}} is a set with one element, not its value: write {inside}"
 
 
+def _two_whole(values: list[ast.expr]) -> bool:
+    return len(values) == 2 and all(isinstance(v, ast.Constant) and isinstance(v.value, int) for v in values)
+
+
+def _comma(values: list[ast.expr]) -> str:
+    ahead, behind = (unparse(value) for value in values)
+    return f"{ahead}, {behind} are two numbers: Python writes the decimal point as a point, {ahead}.{behind}"
+
+
+@slip
 def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
     """Find a text with `{name}` in it that lacks the f before its quotes, where it is logged or published."""
     for call, name in calls(tree):
@@ -146,12 +137,14 @@ def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
                 yield value.lineno, "this text holds {...} but has no f before its quotes, so it is sent as it stands"
 
 
+@slip
 def strengths(tree: ast.AST) -> Iterator[Place]:
     for node in nodes_of(tree, ast.Attribute):
         if node.attr == "intensities":
             yield node.lineno, "intensities are how strong the echoes are; how far the points are [m] is in ranges"
 
 
+@slip
 def stray_methods(tree: ast.AST) -> Iterator[Place]:
     """Find a function with the parameter self that stands outside of a class, because of its indentation."""
     owned = {id(node) for each in nodes_of(tree, ast.ClassDef) for node in each.body}
@@ -166,6 +159,7 @@ def stray_methods(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def blocking(tree: ast.AST) -> Iterator[Place]:
     """Find an endless loop, or a Rate, inside a callback: while it runs, no other callback and no clock does."""
     handed = {
@@ -193,6 +187,7 @@ def blocking(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
     """Find a lookup with a timeout in a node with a single thread: no transform is heard while it waits."""
     threads = any(
@@ -211,7 +206,20 @@ def waits_for_transforms(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-LOOKS = (
-    constructors, main_not_called, not_called, decimal_commas, sets_for_numbers,
-    strings_with_braces, strengths, stray_methods, blocking, waits_for_transforms, long_sleeps,
-)  # fmt: skip
+@slip
+def long_sleeps(tree: ast.AST) -> Iterator[Place]:
+    """Find a sleep of minutes with a publish() behind it in its block, which hardly waits for that."""
+    known = named_numbers(tree)
+    for block in (node.body for node in nodes_of(tree, ast.Module, ast.FunctionDef)):
+        for place, statement in enumerate(block):
+            call = statement.value if isinstance(statement, ast.Expr) else None
+            if not isinstance(call, ast.Call) or last_name(call.func) != "sleep" or not call.args:
+                continue
+            seconds = number(call.args[0], known)
+            published = any(name == "publish" for behind in block[place:] for _, name in calls(behind))
+            if seconds is not None and seconds >= LONGEST_PERIOD and published:
+                yield (
+                    call.lineno,
+                    f"{unparse(call)} takes seconds: what follows runs only after {seconds / 60:.0f} minutes; "
+                    f"{seconds:g} ms are {seconds / 1000:g}",
+                )

@@ -6,11 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 EMPTY = ("{}", "dict()")
 ASKS = ("get", "pop")
 
 
+@slip
 def keys_that_nothing_sets(tree: ast.AST) -> Iterator[Place]:
     """Find `self.poses["me"]` in a file that begins with an empty dictionary, and never sets this key."""
     for name in _begun_empty(tree):
@@ -104,6 +106,3 @@ def _read(node: ast.AST, name: str) -> str | None:
         case ast.Call(func=ast.Attribute(value=owner, attr=method), args=[ast.Constant(value=str() as key), *_]):
             return key if method in ASKS and unparse(owner) == name else None
     return None
-
-
-LOOKS = (keys_that_nothing_sets,)

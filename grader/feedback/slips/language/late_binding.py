@@ -10,6 +10,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from gz_course.grader.feedback.facts.syntax import Place, children, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 Function = ast.Lambda | ast.FunctionDef
 # What keeps a function that it is given, and calls it later. `sorted` and `map` call it at once.
@@ -21,6 +22,7 @@ LATER = frozenset({
 Comprehension = ast.ListComp | ast.GeneratorExp | ast.SetComp | ast.DictComp
 
 
+@slip
 def late_bound(tree: ast.AST) -> Iterator[Place]:
     """Find a function that reads the variable of a loop when the loop has given it its last value."""
     for loop in walk(tree):
@@ -83,6 +85,3 @@ def _own_names(function: Function) -> set[str]:
     """Return the names that a function binds itself: its parameters, and what it assigns."""
     bound = {each.arg for each in nodes_of(function, ast.arg)}
     return bound | {each.id for each in nodes_of(function, ast.Name) if isinstance(each.ctx, ast.Store)}
-
-
-LOOKS = (late_bound,)

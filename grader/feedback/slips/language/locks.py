@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 
 def _taken(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[str, ast.With]]:
@@ -15,6 +16,7 @@ def _taken(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[str, as
                 yield name, node
 
 
+@slip
 def taken_twice(tree: ast.AST) -> Iterator[Place]:
     """Find a function that is called while a Lock is held, and that takes the same Lock."""
     locks = {
@@ -38,6 +40,3 @@ def taken_twice(tree: ast.AST) -> Iterator[Place]:
                             "waits for ever: a Lock can be taken once only, an RLock again by the same thread",
                         )
                         return
-
-
-LOOKS = (taken_twice,)

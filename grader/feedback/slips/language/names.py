@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assignments, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -27,102 +28,7 @@ def _attributes(node: ast.AST, context: type[ast.expr_context]) -> dict[str, int
     return found
 
 
-def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
-    """Find `done = True` where `self.done` was meant: the local variable is never read, the attribute is."""
-    for owner in _classes(tree):
-        read, never_set = _attributes(owner, ast.Load), _never_changed(owner)
-        for method in _methods(owner):
-            kept = {name for node in nodes_of(method, ast.Global, ast.Nonlocal) for name in node.names}
-            names = [node for node in nodes_of(method, ast.Name)]
-            loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)} | kept
-            for target, node in assignments(method):
-                if not isinstance(target, ast.Name) or target.id not in read:
-                    continue
-                lost = target.id in never_set - kept and f"self.{target.id}" not in unparse(node.value)
-                if target.id in loaded and not lost:
-                    continue
-                yield (
-                    node.lineno,
-                    f"{target.id} = ... makes a variable of {method.name} alone; line "
-                    f"{read[target.id]} reads self.{target.id}, so write self.{target.id} = ...",
-                )
-
-
-def _never_changed(owner: ast.ClassDef) -> set[str]:
-    """Return the attributes that are set to None, True or False once, in `__init__`, and to nothing else anywhere."""
-    found: dict[str, list[str]] = {}
-    for node in walk(owner):
-        for target in node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]:
-            for each in walk(target) if isinstance(target, ast.expr) else ():
-                if isinstance(each, ast.Attribute) and unparse(each.value) == "self":
-                    value = unparse(node.value) if isinstance(node, ast.Assign) else ""
-                    found.setdefault(each.attr, []).append(value)
-    flags = {name for name, values in found.items() if values in (["True"], ["False"])}
-    return flags | {name for name, values in found.items() if set(values) == {"None"}}
-
-
-def hidden_methods(tree: ast.AST) -> Iterator[Place]:
-    """Find an attribute with the name of a method of the same class, which is then no method any more."""
-    for owner in _classes(tree):
-        methods = {method.name: method.lineno for method in _methods(owner) if not method.decorator_list}
-        for node in nodes_of(owner, ast.Assign):
-            for target in node.targets:
-                name = unparse(target).removeprefix("self.")
-                own = unparse(target) == f"self.{name}"
-                if own and name in methods and f"self.{name}" not in unparse(node.value):
-                    yield (
-                        node.lineno,
-                        f"self.{name} = ... hides the method {name} of line {methods[name]}: self.{name} is then this "
-                        "value; give one of the two another name",
-                    )
-
-
-def defined_twice(tree: ast.AST) -> Iterator[Place]:
-    for owner in _classes(tree):
-        seen: dict[str, int] = {}
-        for method in _methods(owner):
-            if method.name in seen and not method.decorator_list:
-                yield (
-                    method.lineno,
-                    f"this def {method.name} replaces that in line {seen[method.name]}: a class has one method of a "
-                    f"name",
-                )
-            seen[method.name] = method.lineno
-
-
-def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
-    """Find a counter or flag that is set on the class and read on the object, or the other way round."""
-    for owner in _classes(tree):
-        objects = _attributes(owner, ast.Store)
-        sums = [node.target for node in nodes_of(owner, ast.AugAssign)]
-        for target in [*sums, *(target for target, _ in assignments(owner))]:
-            if isinstance(target, ast.Attribute) and unparse(target.value) == owner.name and target.attr in objects:
-                yield (
-                    target.lineno,
-                    f"{unparse(target)} is a variable of the class; self.{target.attr}, set in line "
-                    f"{objects[target.attr]}, is another one",
-                )
-
-
-def one_name_for_two_timers(tree: ast.AST) -> Iterator[Place]:
-    """Find two timers that are given the same name, of which cancel() then ends the second one only."""
-    for owner in _classes(tree):
-        cancelled = {unparse(node.value) for node in nodes_of(owner, ast.Attribute) if node.attr in ("cancel", "reset")}
-        for method in _methods(owner):
-            made: dict[str, int] = {}
-            for statement in method.body:
-                if not isinstance(statement, ast.Assign) or "create_timer" not in unparse(statement.value):
-                    continue
-                name = unparse(statement.targets[0])
-                if name in made and name in cancelled:
-                    yield (
-                        statement.lineno,
-                        f"{name} names this timer now, and no more that of line {made[name]}: {name}.cancel() does not "
-                        "end the first one; give each timer a name of its own",
-                    )
-                made[name] = statement.lineno
-
-
+@slip
 def local_for_global(tree: ast.AST) -> Iterator[Place]:
     """Find `busy = True` in a function without `global busy`: it is never read there, the variable of the module is."""
     if not isinstance(tree, ast.Module):
@@ -155,6 +61,107 @@ def local_for_global(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+def _never_changed(owner: ast.ClassDef) -> set[str]:
+    """Return the attributes that are set to None, True or False once, in `__init__`, and to nothing else anywhere."""
+    found: dict[str, list[str]] = {}
+    for node in walk(owner):
+        for target in node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]:
+            for each in walk(target) if isinstance(target, ast.expr) else ():
+                if isinstance(each, ast.Attribute) and unparse(each.value) == "self":
+                    value = unparse(node.value) if isinstance(node, ast.Assign) else ""
+                    found.setdefault(each.attr, []).append(value)
+    flags = {name for name, values in found.items() if values in (["True"], ["False"])}
+    return flags | {name for name, values in found.items() if set(values) == {"None"}}
+
+
+@slip
+def one_name_for_two_timers(tree: ast.AST) -> Iterator[Place]:
+    """Find two timers that are given the same name, of which cancel() then ends the second one only."""
+    for owner in _classes(tree):
+        cancelled = {unparse(node.value) for node in nodes_of(owner, ast.Attribute) if node.attr in ("cancel", "reset")}
+        for method in _methods(owner):
+            made: dict[str, int] = {}
+            for statement in method.body:
+                if not isinstance(statement, ast.Assign) or "create_timer" not in unparse(statement.value):
+                    continue
+                name = unparse(statement.targets[0])
+                if name in made and name in cancelled:
+                    yield (
+                        statement.lineno,
+                        f"{name} names this timer now, and no more that of line {made[name]}: {name}.cancel() does not "
+                        "end the first one; give each timer a name of its own",
+                    )
+                made[name] = statement.lineno
+
+
+@slip
+def local_for_attribute(tree: ast.AST) -> Iterator[Place]:
+    """Find `done = True` where `self.done` was meant: the local variable is never read, the attribute is."""
+    for owner in _classes(tree):
+        read, never_set = _attributes(owner, ast.Load), _never_changed(owner)
+        for method in _methods(owner):
+            kept = {name for node in nodes_of(method, ast.Global, ast.Nonlocal) for name in node.names}
+            names = [node for node in nodes_of(method, ast.Name)]
+            loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)} | kept
+            for target, node in assignments(method):
+                if not isinstance(target, ast.Name) or target.id not in read:
+                    continue
+                lost = target.id in never_set - kept and f"self.{target.id}" not in unparse(node.value)
+                if target.id in loaded and not lost:
+                    continue
+                yield (
+                    node.lineno,
+                    f"{target.id} = ... makes a variable of {method.name} alone; line "
+                    f"{read[target.id]} reads self.{target.id}, so write self.{target.id} = ...",
+                )
+
+
+@slip
+def hidden_methods(tree: ast.AST) -> Iterator[Place]:
+    """Find an attribute with the name of a method of the same class, which is then no method any more."""
+    for owner in _classes(tree):
+        methods = {method.name: method.lineno for method in _methods(owner) if not method.decorator_list}
+        for node in nodes_of(owner, ast.Assign):
+            for target in node.targets:
+                name = unparse(target).removeprefix("self.")
+                own = unparse(target) == f"self.{name}"
+                if own and name in methods and f"self.{name}" not in unparse(node.value):
+                    yield (
+                        node.lineno,
+                        f"self.{name} = ... hides the method {name} of line {methods[name]}: self.{name} is then this "
+                        "value; give one of the two another name",
+                    )
+
+
+@slip
+def defined_twice(tree: ast.AST) -> Iterator[Place]:
+    for owner in _classes(tree):
+        seen: dict[str, int] = {}
+        for method in _methods(owner):
+            if method.name in seen and not method.decorator_list:
+                yield (
+                    method.lineno,
+                    f"this def {method.name} replaces that in line {seen[method.name]}: a class has one method of a "
+                    f"name",
+                )
+            seen[method.name] = method.lineno
+
+
+@slip
+def attribute_of_the_class(tree: ast.AST) -> Iterator[Place]:
+    """Find a counter or flag that is set on the class and read on the object, or the other way round."""
+    for owner in _classes(tree):
+        objects = _attributes(owner, ast.Store)
+        sums = [node.target for node in nodes_of(owner, ast.AugAssign)]
+        for target in [*sums, *(target for target, _ in assignments(owner))]:
+            if isinstance(target, ast.Attribute) and unparse(target.value) == owner.name and target.attr in objects:
+                yield (
+                    target.lineno,
+                    f"{unparse(target)} is a variable of the class; self.{target.attr}, set in line "
+                    f"{objects[target.attr]}, is another one",
+                )
+
+
 def _declared(function: Function) -> set[str]:
     return {
         name for node in nodes_of(function, ast.Global, ast.Nonlocal) for name in node.names
@@ -163,13 +170,3 @@ def _declared(function: Function) -> set[str]:
 
 def _arguments(function: Function) -> set[str]:
     return {each.arg for each in nodes_of(function, ast.arg)}
-
-
-LOOKS = (
-    local_for_global,
-    one_name_for_two_timers,
-    local_for_attribute,
-    hidden_methods,
-    defined_twice,
-    attribute_of_the_class,
-)

@@ -7,12 +7,14 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, is_none, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 LEAVES = ast.Return | ast.Continue | ast.Raise
 PREVIOUS = re.compile(r"(^|_)(last|prev|previous|old|before)(_|$)")
 
 
+@slip
 def waits_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.x is None: return` where nothing in the file sets `x` to anything else than None."""
     only_none, set_in = _values(tree)
@@ -86,6 +88,7 @@ def _twice(set_in: dict[str, list[str]]) -> str:
     return ""
 
 
+@slip
 def previous_stays(tree: ast.AST) -> Iterator[Place]:
     """Find `error - self.last_error` where nothing but `__init__` sets `last_error`, and it sets it to a number."""
     if any(isinstance(each, ast.Name) and each.id in ("setattr", "vars") for each in walk(tree)):
@@ -111,6 +114,3 @@ def previous_stays(tree: ast.AST) -> Iterator[Place]:
                         f"self.{name} stays {unparse(first[name])}, because only __init__ sets it, so "
                         f"{unparse(node)[:60]} is no change: set it to the new value at the end of each call",
                     )
-
-
-LOOKS = (waits_for_ever, previous_stays)

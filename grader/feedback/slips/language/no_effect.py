@@ -6,7 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assignments, called, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.language.unreached import blocks
+
+BEFORE = ("results",)
 
 FUNCTIONS = frozenset({"rclpy.ok", "math.isfinite", "math.isnan", "math.isinf", "isfinite", "isnan", "isinf"})
 # Functions of math and NumPy.
@@ -21,6 +24,7 @@ MESSAGES = frozenset({
 })  # fmt: skip
 
 
+@slip
 def thrown_away(tree: ast.AST) -> Iterator[Place]:
     """Find a comparison or an arithmetic expression that is a statement of its own."""
     for node in nodes_of(tree, ast.Expr):
@@ -50,6 +54,7 @@ def _only_returns(call: ast.Call) -> bool:
     return (name == "sorted" and not owner) or (name == "transform" and "buf" in owner.lower() and len(call.args) == 2)
 
 
+@slip
 def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:
     """Find `x =+ 1`, which assigns +1."""
     for node in nodes_of(tree, ast.Assign):
@@ -61,25 +66,28 @@ def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:
                 yield node.lineno, f"{name} =+ {value} sets it to {value} in every call: {name} += {value} adds {value}"
 
 
-def changed_after_publish(tree: ast.AST) -> Iterator[Place]:
-    """Find a field that is set behind the publish() of its message, which nothing publishes after that."""
-    for function, block in ((each, block) for each in functions(tree) for block in blocks(each)):
-        for i, statement in enumerate(block):
-            name = _published(statement)
-            if not name or name.startswith("self."):
-                continue
-            later = block[i + 1 :]
-            made = any(_makes(each, name) for outer in later for each in _statements(outer))
-            if made or _published_again(function, statement, name):
-                continue
-            for each in (inner for outer in later for inner in _statements(outer)):
-                if isinstance(each, ast.Assign) and unparse(each.targets[0]).startswith(f"{name}."):
+@slip
+def always_true(tree: ast.AST) -> Iterator[Place]:
+    """Find `state == 'go' or 'turn'`, whose second half is always true."""
+    for node in walk(tree):
+        if not isinstance(node, ast.If | ast.While | ast.IfExp | ast.Assert):
+            continue
+        for each in _alternatives(node.test):
+            if isinstance(each.op, ast.Or):
+                constants = [value for value in each.values[1:] if isinstance(value, ast.Constant) and value.value]
+                if constants:
                     yield (
-                        each.lineno,
-                        f"{unparse(each.targets[0])} is set after publish({name}) in line {statement.lineno}: what "
-                        "was sent does not change any more",
+                        node.test.lineno,
+                        f"{unparse(each)[:60]} is always true, because {unparse(constants[0])} is: each "
+                        "side of or is a condition of its own",
                     )
-                    break
+        tested = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
+        if unparse(tested) in FUNCTIONS:
+            name = unparse(tested)
+            yield (
+                node.test.lineno,
+                f"{name} without brackets is the function, which is always true: {name}(...) calls it",
+            )
 
 
 def _published_again(function: ast.FunctionDef, statement: ast.stmt, name: str) -> bool:
@@ -110,61 +118,7 @@ def _makes(statement: ast.stmt, name: str) -> bool:
     return isinstance(statement, ast.Assign) and any(unparse(target) == name for target in statement.targets)
 
 
-def never_sent(tree: ast.AST) -> Iterator[Place]:
-    """Find a message that a function makes and at most fills, and hands to nobody."""
-    for function in functions(tree):
-        loads = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Load)]
-        bases = {
-            id(inner)
-            for node in nodes_of(function, ast.Attribute)
-            if isinstance(node.ctx, ast.Store)
-            for inner in walk(node)
-        }
-        for target, node in assignments(function):
-            if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
-                continue
-            kind = unparse(node.value.func).rpartition(".")[2]
-            if kind in MESSAGES and all(id(each) in bases for each in loads if each.id == target.id):
-                yield (
-                    node.lineno,
-                    f"{target.id}, a {kind}, is made here and never used: nothing publishes it or puts it into another "
-                    "message",
-                )
-
-
-def always_true(tree: ast.AST) -> Iterator[Place]:
-    """Find `state == 'go' or 'turn'`, whose second half is always true."""
-    for node in walk(tree):
-        if not isinstance(node, ast.If | ast.While | ast.IfExp | ast.Assert):
-            continue
-        for each in _alternatives(node.test):
-            if isinstance(each.op, ast.Or):
-                constants = [value for value in each.values[1:] if isinstance(value, ast.Constant) and value.value]
-                if constants:
-                    yield (
-                        node.test.lineno,
-                        f"{unparse(each)[:60]} is always true, because {unparse(constants[0])} is: each "
-                        "side of or is a condition of its own",
-                    )
-        tested = node.test.operand if isinstance(node.test, ast.UnaryOp) else node.test
-        if unparse(tested) in FUNCTIONS:
-            name = unparse(tested)
-            yield (
-                node.test.lineno,
-                f"{name} without brackets is the function, which is always true: {name}(...) calls it",
-            )
-
-
-def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
-    """Yield the `and` and `or` of a condition, not those within its comparisons and calls."""
-    parts = [test.operand] if isinstance(test, ast.UnaryOp) else []
-    if isinstance(test, ast.BoolOp):
-        yield test
-        parts = test.values
-    for part in parts:
-        yield from _alternatives(part)
-
-
+@slip
 def first_iteration(tree: ast.AST) -> Iterator[Place]:
     """Find a return at the end of the body of a loop that collects something: the loop ends at once."""
     for function in functions(tree):
@@ -181,21 +135,7 @@ def first_iteration(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
-def _set_in(block: list[ast.stmt], before: int) -> set[str]:
-    """Return the names that are assigned in a block, or appended to, in lines before the given one."""
-    names = set()
-    for node in (inner for statement in block for inner in walk(statement)):
-        if getattr(node, "lineno", before) >= before:
-            continue
-        if isinstance(node, ast.Assign):
-            names |= {unparse(target) for target in node.targets}
-        elif isinstance(node, ast.AugAssign):
-            names.add(unparse(node.target))
-        elif isinstance(node, ast.Call) and unparse(node.func).endswith(".append"):
-            names.add(unparse(node.func).removesuffix(".append"))
-    return names
-
-
+@slip
 def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
     """Find a timer that is to end by losing its name, or by reset()."""
     timers = {
@@ -227,12 +167,71 @@ def timers_that_go_on(tree: ast.AST) -> Iterator[Place]:
                 yield node.lineno, f"{owner}.{method}() only asks: {owner}.cancel() ends the timer"
 
 
-LOOKS = (
-    thrown_away,
-    signs_for_operators,
-    always_true,
-    first_iteration,
-    timers_that_go_on,
-    never_sent,
-    changed_after_publish,
-)
+def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
+    """Yield the `and` and `or` of a condition, not those within its comparisons and calls."""
+    parts = [test.operand] if isinstance(test, ast.UnaryOp) else []
+    if isinstance(test, ast.BoolOp):
+        yield test
+        parts = test.values
+    for part in parts:
+        yield from _alternatives(part)
+
+
+@slip
+def never_sent(tree: ast.AST) -> Iterator[Place]:
+    """Find a message that a function makes and at most fills, and hands to nobody."""
+    for function in functions(tree):
+        loads = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Load)]
+        bases = {
+            id(inner)
+            for node in nodes_of(function, ast.Attribute)
+            if isinstance(node.ctx, ast.Store)
+            for inner in walk(node)
+        }
+        for target, node in assignments(function):
+            if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
+                continue
+            kind = unparse(node.value.func).rpartition(".")[2]
+            if kind in MESSAGES and all(id(each) in bases for each in loads if each.id == target.id):
+                yield (
+                    node.lineno,
+                    f"{target.id}, a {kind}, is made here and never used: nothing publishes it or puts it into another "
+                    "message",
+                )
+
+
+def _set_in(block: list[ast.stmt], before: int) -> set[str]:
+    """Return the names that are assigned in a block, or appended to, in lines before the given one."""
+    names = set()
+    for node in (inner for statement in block for inner in walk(statement)):
+        if getattr(node, "lineno", before) >= before:
+            continue
+        if isinstance(node, ast.Assign):
+            names |= {unparse(target) for target in node.targets}
+        elif isinstance(node, ast.AugAssign):
+            names.add(unparse(node.target))
+        elif isinstance(node, ast.Call) and unparse(node.func).endswith(".append"):
+            names.add(unparse(node.func).removesuffix(".append"))
+    return names
+
+
+@slip
+def changed_after_publish(tree: ast.AST) -> Iterator[Place]:
+    """Find a field that is set behind the publish() of its message, which nothing publishes after that."""
+    for function, block in ((each, block) for each in functions(tree) for block in blocks(each)):
+        for i, statement in enumerate(block):
+            name = _published(statement)
+            if not name or name.startswith("self."):
+                continue
+            later = block[i + 1 :]
+            made = any(_makes(each, name) for outer in later for each in _statements(outer))
+            if made or _published_again(function, statement, name):
+                continue
+            for each in (inner for outer in later for inner in _statements(outer)):
+                if isinstance(each, ast.Assign) and unparse(each.targets[0]).startswith(f"{name}."):
+                    yield (
+                        each.lineno,
+                        f"{unparse(each.targets[0])} is set after publish({name}) in line {statement.lineno}: what "
+                        "was sent does not change any more",
+                    )
+                    break

@@ -6,8 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, functions, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 
+@slip
 def returns_when_there(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.x is not None: return` before lines that use parts of `self.x`, which is None there."""
     for function in functions(tree):
@@ -51,6 +53,3 @@ def _uses(body: list[ast.stmt], name: str) -> bool:
 
 def _stores(node: ast.Attribute, name: str) -> bool:
     return isinstance(node.ctx, ast.Store) and unparse(node) == name
-
-
-LOOKS = (returns_when_there,)

@@ -8,12 +8,14 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
 WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
 SILENT = frozenset({"debug", "info"})
 
 
+@slip
 def used_up(tree: ast.AST) -> Iterator[Place]:
     """Find a generator that is gone through twice: the second time it is empty."""
     for function in functions(tree):
@@ -53,6 +55,7 @@ def _goes_through(node: ast.AST, name: str) -> int:
     return 0
 
 
+@slip
 def same_object(tree: ast.AST) -> Iterator[Place]:
     """Find `hit.header = scan.header` and then `hit.header.frame_id = ...`, which changes the scan too."""
     for function in functions(tree):
@@ -79,6 +82,7 @@ PARTS = frozenset(
 )
 
 
+@slip
 def identity(tree: ast.AST) -> Iterator[Place]:
     """Find `is` between values that may be equal without being the same object."""
     constants = {
@@ -106,6 +110,7 @@ def identity(tree: ast.AST) -> Iterator[Place]:
                 break
 
 
+@slip
 def repeated_rows(tree: ast.AST) -> Iterator[Place]:
     """Find `[[0] * width] * height`, whose rows are all the same list."""
     for node in nodes_of(tree, ast.BinOp):
@@ -122,6 +127,7 @@ def repeated_rows(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
     """Find `Time(seconds=stamp.sec)`, which leaves the nanoseconds out."""
     for node in nodes_of(tree, ast.Call):
@@ -136,6 +142,7 @@ def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def python_logging(tree: ast.AST) -> Iterator[Place]:
     """Find lines for the log that Python's own logging swallows, because nothing has set it up."""
     imported = any(isinstance(node, ast.Import) and any(a.name == "logging" for a in node.names) for node in walk(tree))
@@ -152,6 +159,7 @@ def python_logging(tree: ast.AST) -> Iterator[Place]:
             return
 
 
+@slip
 def zero_is_false(tree: ast.AST) -> Iterator[Place]:
     """Find `if not self.x:` where self.x begins as None and is later set to 0: it asks for None and for 0 alike."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -170,8 +178,3 @@ def zero_is_false(tree: ast.AST) -> Iterator[Place]:
                         f"not {name} holds for {zero}, too, not only for None: {zero} counts as false; ask "
                         f"{name} is None",
                     )
-
-
-LOOKS = (
-    used_up, same_object, identity, repeated_rows, whole_seconds_of_a_stamp, python_logging, zero_is_false,
-)  # fmt: skip

@@ -6,11 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 MAKES = frozenset({"zeros", "ones", "full", "empty", "array", "zeros_like", "list", "dict", "set"})
 CHANGES = frozenset({"append", "extend", "add", "update", "fill", "insert"})
 
 
+@slip
 def one_array(tree: ast.AST) -> Iterator[Place]:
     """Find `self.hits = self.passes = np.zeros(...)`, and `self.passes = self.hits`, where both are changed."""
     changed = _changed(tree)
@@ -31,6 +33,7 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def one_local(tree: ast.AST) -> Iterator[Place]:
     """Find `misses = hits = set()` in a function that adds to both by different calls."""
     for function in functions(tree):
@@ -84,6 +87,3 @@ def _parts_set(function: ast.FunctionDef) -> set[str]:
         if isinstance(node.ctx, ast.Store):
             found.add(unparse(whole))
     return found
-
-
-LOOKS = (one_array, one_local)

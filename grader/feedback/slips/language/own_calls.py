@@ -7,11 +7,13 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, functions, kept, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 EITHER = {"start", "goal", "end", "first", "second", "source", "target", "here", "there"}  # in both orders on purpose
 SYMMETRIC = re.compile(r"dist|between|near|close|same|apart|away|gap|length|swap|way|path|route|touch")
 
 
+@slip
 def exchanged_names(tree: ast.AST) -> Iterator[Place]:
     """Find `drive(turn, speed)` where the file has `def drive(speed, turn)` and no call in the right order."""
     for function, given in calls_of_own(tree):
@@ -81,6 +83,3 @@ def parameters(function: ast.FunctionDef) -> list[str]:
     """Return the names of the parameters that a call gives in order, without self."""
     names = [each.arg for each in [*function.args.posonlyargs, *function.args.args]]
     return names[1:] if names[:1] == ["self"] else names
-
-
-LOOKS = (exchanged_names,)

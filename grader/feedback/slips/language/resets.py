@@ -6,29 +6,27 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 SENT = frozenset({"publish", "info"})
 
 
-def before_it_is_sent(tree: ast.AST) -> Iterator[Place]:
-    """Find `self.nearest = math.inf` in every call, between the loop that finds it and the publish() of it."""
-    for function in functions(tree):
-        for i, statement in enumerate(function.body):
-            if not isinstance(statement, ast.Assign) or len(statement.targets) != 1 or not _constant(statement.value):
+@slip
+def search_of_another(tree: ast.AST) -> Iterator[Place]:
+    """Find `if r < valid[0]: nearest = r` in a loop over valid, which compares with the first value, not the best."""
+    for loop in (node for node in nodes_of(tree, ast.For) if isinstance(node.target, ast.Name)):
+        first = f"{unparse(loop.iter)}[0]"
+        for node in nodes_of(loop, ast.If):
+            if not isinstance(node.test, ast.Compare):
                 continue
-            name = unparse(statement.targets[0])
-            if not any(_computes(each, name) for each in function.body[:i]):
-                continue
-            for later in function.body[i + 1 :]:
-                if any(unparse(target) == name for target, _ in assigned(later)):
-                    break
-                if line := _sends(later, name):
+            sides = {unparse(each) for each in (node.test.left, *node.test.comparators)}
+            for target, value in (pair for each in node.body for pair in assigned(each)):
+                if sides == {unparse(loop.target), first} and unparse(value) == unparse(loop.target):
                     yield (
-                        statement.lineno,
-                        f"{unparse(statement)[:60]} comes before line {line}, which sends {name}: what was found "
-                        "is lost; set it back after that line, or at the beginning of the function",
+                        node.lineno,
+                        f"{unparse(node.test)} compares with the first value each time, so {unparse(target)} "
+                        "becomes the last value that is better than the first; compare with the best so far",
                     )
-                    return
 
 
 def _constant(value: ast.expr) -> bool:
@@ -56,6 +54,29 @@ def _given(call: ast.Call) -> list[ast.expr]:
     return [*call.args, *(each.value for each in call.keywords)]
 
 
+@slip
+def before_it_is_sent(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.nearest = math.inf` in every call, between the loop that finds it and the publish() of it."""
+    for function in functions(tree):
+        for i, statement in enumerate(function.body):
+            if not isinstance(statement, ast.Assign) or len(statement.targets) != 1 or not _constant(statement.value):
+                continue
+            name = unparse(statement.targets[0])
+            if not any(_computes(each, name) for each in function.body[:i]):
+                continue
+            for later in function.body[i + 1 :]:
+                if any(unparse(target) == name for target, _ in assigned(later)):
+                    break
+                if line := _sends(later, name):
+                    yield (
+                        statement.lineno,
+                        f"{unparse(statement)[:60]} comes before line {line}, which sends {name}: what was found "
+                        "is lost; set it back after that line, or at the beginning of the function",
+                    )
+                    return
+
+
+@slip
 def else_of_a_search(tree: ast.AST) -> Iterator[Place]:
     """Find `if r < best: best = r` in a loop whose else sets best to something that is not in the scan's own loop."""
     for loop in nodes_of(tree, ast.For):
@@ -76,23 +97,3 @@ def else_of_a_search(tree: ast.AST) -> Iterator[Place]:
                             f"{unparse(each)[:60]} forgets what was found as soon as one value is no better: only "
                             "the last ones count; a search needs no else",
                         )
-
-
-def search_of_another(tree: ast.AST) -> Iterator[Place]:
-    """Find `if r < valid[0]: nearest = r` in a loop over valid, which compares with the first value, not the best."""
-    for loop in (node for node in nodes_of(tree, ast.For) if isinstance(node.target, ast.Name)):
-        first = f"{unparse(loop.iter)}[0]"
-        for node in nodes_of(loop, ast.If):
-            if not isinstance(node.test, ast.Compare):
-                continue
-            sides = {unparse(each) for each in (node.test.left, *node.test.comparators)}
-            for target, value in (pair for each in node.body for pair in assigned(each)):
-                if sides == {unparse(loop.target), first} and unparse(value) == unparse(loop.target):
-                    yield (
-                        node.lineno,
-                        f"{unparse(node.test)} compares with the first value each time, so {unparse(target)} "
-                        "becomes the last value that is better than the first; compare with the best so far",
-                    )
-
-
-LOOKS = (search_of_another, before_it_is_sent, else_of_a_search)

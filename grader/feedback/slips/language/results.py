@@ -16,10 +16,12 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.slips import slip
 
 NEVER_RETURN = frozenset({"NotImplementedError", "abstractmethod"})
 
 
+@slip
 def no_return(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.over():` where the function over has no return with a value."""
     own: dict[str, list[ast.FunctionDef]] = {}
@@ -83,6 +85,7 @@ def _used(tree: ast.AST) -> Iterator[ast.expr]:
                 yield given
 
 
+@slip
 def one_message(tree: ast.AST) -> Iterator[Place]:
     """Find `self.halt = self.go` and then fields of self.halt that are set, where both are published."""
     values = set_to(tree)
@@ -107,6 +110,7 @@ def one_message(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
+@slip
 def not_called(tree: ast.AST) -> Iterator[Place]:
     """Find `if not self.over:` where over is a method: without brackets it is always true."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -131,6 +135,3 @@ def not_called(tree: ast.AST) -> Iterator[Place]:
                         f"{name}()",
                     )
                     return
-
-
-LOOKS = (no_return, one_message, not_called)

@@ -6,6 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, left_early, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
+
+BEFORE = ("not_what_they_seem",)
 
 READ_ONCE = frozenset({"filter", "map", "zip", "reversed", "iter", "enumerate"})
 READERS = frozenset({
@@ -28,6 +31,7 @@ def assigned(function: ast.FunctionDef) -> dict[str, list[ast.expr | None]]:
     return found
 
 
+@slip
 def read_twice(tree: ast.AST) -> Iterator[Place]:
     """Find a generator, or what filter() and map() return, that is read to its end twice."""
     for function in functions(tree):
@@ -55,6 +59,7 @@ def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
                 yield node.iter
 
 
+@slip
 def changed_while_read(tree: ast.AST) -> Iterator[Place]:
     """Find a loop over a list that takes elements out of the same list, and goes on."""
     for loop in nodes_of(tree, ast.For):
@@ -90,6 +95,7 @@ def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
     return False
 
 
+@slip
 def compared_with_nan(tree: ast.AST) -> Iterator[Place]:
     """Find comparisons that are always the same: with nan by value, with a float by identity."""
     for node in nodes_of(tree, ast.Compare):
@@ -113,6 +119,7 @@ def _constant(node: ast.expr) -> str:
     return names.get(text, "")
 
 
+@slip
 def log_arguments(tree: ast.AST) -> Iterator[Place]:
     """Find a line of the node's logger with several arguments, as print() and Python's logging take them."""
     loggers = {
@@ -128,6 +135,3 @@ def log_arguments(tree: ast.AST) -> Iterator[Place]:
                 f"{node.func.attr}() of the node's logger takes one text, and no values to fill in: write an f-string, "
                 "or put the values in with  '...' % (...)",
             )
-
-
-LOOKS = (read_twice, changed_while_read, compared_with_nan, log_arguments)

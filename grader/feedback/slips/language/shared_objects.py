@@ -6,60 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 
-def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
-    """Find `self.front = self.own` where methods of both are the callbacks of two subscriptions."""
-    listening = {
-        unparse(each.value)
-        for call, name in calls(tree)
-        if name == "create_subscription"
-        for each in (*call.args, *(word.value for word in call.keywords))
-        if isinstance(each, ast.Attribute) and unparse(each.value).startswith("self.")
-    }
-    values: dict[str, list[tuple[int, str]]] = {}
-    for target, value in assigned(tree):
-        values.setdefault(unparse(target), []).append((target.lineno, unparse(value)))
-    for name in sorted(listening & values.keys()):
-        line, other = values[name][-1]
-        if other in listening and other != name and len(values.get(other, ())) == 1:
-            yield (
-                line,
-                f"{name} is {other} here, one object with two names, so both subscriptions store into it: make one "
-                "for each",
-            )
-    for node in nodes_of(tree, ast.Assign):
-        if len(node.targets) > 1 and isinstance(node.value, ast.Call):
-            names = [unparse(each) for each in node.targets if unparse(each) in listening]
-            if len(names) > 1 and all(len(values[each]) == 1 for each in names):
-                yield (
-                    node.lineno,
-                    f"{' and '.join(names)} are one object with two names, so both subscriptions store into it: make "
-                    "one for each",
-                )
-
-
-def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
-    """Find `Robot.pose = ...` in a method of Robot that gets a message, where the file makes two objects of it."""
-    made = [name for _, name in calls(tree)]
-    for owner in nodes_of(tree, ast.ClassDef):
-        if made.count(owner.name) < 2:
-            continue
-        for method in (node for node in owner.body if isinstance(node, ast.FunctionDef)):
-            given = {each.arg for each in method.args.args[1:]}
-            for target, value in assigned(method):
-                whole = isinstance(target, ast.Attribute) and unparse(target.value)
-                if whole != owner.name or not given & {unparse(each) for each in walk(value)}:
-                    continue
-                attribute = unparse(target).rpartition(".")[2]
-                yield (
-                    target.lineno,
-                    f"{unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of "
-                    f"{owner.name} share it and the last message of any of them counts: self.{attribute} is one for "
-                    "each",
-                )
-
-
+@slip
 def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
     """Find `self.planner = Planner(self.grid)` with another `self.grid = ...` later: the planner keeps the first."""
     keeps = {
@@ -98,6 +48,61 @@ def replaced_after_it_was_handed_over(tree: ast.AST) -> Iterator[Place]:
                     return
 
 
+@slip
+def one_object_for_two(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.front = self.own` where methods of both are the callbacks of two subscriptions."""
+    listening = {
+        unparse(each.value)
+        for call, name in calls(tree)
+        if name == "create_subscription"
+        for each in (*call.args, *(word.value for word in call.keywords))
+        if isinstance(each, ast.Attribute) and unparse(each.value).startswith("self.")
+    }
+    values: dict[str, list[tuple[int, str]]] = {}
+    for target, value in assigned(tree):
+        values.setdefault(unparse(target), []).append((target.lineno, unparse(value)))
+    for name in sorted(listening & values.keys()):
+        line, other = values[name][-1]
+        if other in listening and other != name and len(values.get(other, ())) == 1:
+            yield (
+                line,
+                f"{name} is {other} here, one object with two names, so both subscriptions store into it: make one "
+                "for each",
+            )
+    for node in nodes_of(tree, ast.Assign):
+        if len(node.targets) > 1 and isinstance(node.value, ast.Call):
+            names = [unparse(each) for each in node.targets if unparse(each) in listening]
+            if len(names) > 1 and all(len(values[each]) == 1 for each in names):
+                yield (
+                    node.lineno,
+                    f"{' and '.join(names)} are one object with two names, so both subscriptions store into it: make "
+                    "one for each",
+                )
+
+
+@slip
+def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
+    """Find `Robot.pose = ...` in a method of Robot that gets a message, where the file makes two objects of it."""
+    made = [name for _, name in calls(tree)]
+    for owner in nodes_of(tree, ast.ClassDef):
+        if made.count(owner.name) < 2:
+            continue
+        for method in (node for node in owner.body if isinstance(node, ast.FunctionDef)):
+            given = {each.arg for each in method.args.args[1:]}
+            for target, value in assigned(method):
+                whole = isinstance(target, ast.Attribute) and unparse(target.value)
+                if whole != owner.name or not given & {unparse(each) for each in walk(value)}:
+                    continue
+                attribute = unparse(target).rpartition(".")[2]
+                yield (
+                    target.lineno,
+                    f"{unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of "
+                    f"{owner.name} share it and the last message of any of them counts: self.{attribute} is one for "
+                    "each",
+                )
+
+
+@slip
 def one_list_for_all(tree: ast.AST) -> Iterator[Place]:
     """Find `command = BASE` and `command += [...]` in a function that is called for each of several."""
     whole = tree.body if isinstance(tree, ast.Module) else []
@@ -139,6 +144,3 @@ def _called_for_several(tree: ast.AST, name: str) -> bool:
     return sum(each == name for _, each in calls(tree)) > 1 or any(
         each == name for loop in loops for _, each in calls(loop)
     )
-
-
-LOOKS = (replaced_after_it_was_handed_over, one_object_for_two, kept_by_the_class, one_list_for_all)

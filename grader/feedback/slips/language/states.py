@@ -6,12 +6,14 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, unparse, walk
+from gz_course.grader.feedback.slips import slip
 from gz_course.sim.did_you_mean import nearest_name
 
 NEAR = 0.75  # how alike two names of one state are
 FEWEST = 3  # letters of a name
 
 
+@slip
 def other_spelling(tree: ast.AST) -> Iterator[Place]:
     """Find `self.state = 'Stop'` where only `self.state == 'stop'` is asked for."""
     given: dict[str, dict[str, int]] = {}
@@ -49,6 +51,3 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
 def _alike(text: str, names: list[str]) -> str:
     same = next((each for each in names if each.casefold() == text.casefold()), "")
     return same or nearest_name(text, names, NEAR) or ""
-
-
-LOOKS = (other_spelling,)

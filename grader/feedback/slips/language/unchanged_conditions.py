@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 
 def _numbers(test: ast.expr) -> set[str]:
@@ -26,6 +27,7 @@ def _leaves(loop: ast.While) -> bool:
     return any(isinstance(each, ways) and id(each) not in cancelled for each in walk(loop))
 
 
+@slip
 def never_changes(tree: ast.AST) -> Iterator[Place]:
     """Find `while left > 0.1:` where left was computed above the loop, and nowhere in it."""
     for function in functions(tree):
@@ -43,6 +45,3 @@ def never_changes(tree: ast.AST) -> Iterator[Place]:
                     f"nothing in this loop changes {last.id}, which line {last.lineno} has computed, so "
                     f"`{unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
                 )
-
-
-LOOKS = (never_changes,)

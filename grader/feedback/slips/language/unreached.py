@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, kept, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 LONGEST_WAIT = 8.0  # [s] of counted ticks; a later message was hardly meant
 ENDS = ("shutdown", "destroy_node")  # what belongs behind spin()
@@ -34,6 +35,26 @@ def _call(statement: ast.stmt) -> str:
     return ""
 
 
+@slip
+def other_name_than_main(tree: ast.Module) -> Iterator[Place]:
+    for node in tree.body:
+        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
+            continue
+        sides = [node.test.left, *node.test.comparators]
+        texts = [side.value for side in sides if isinstance(side, ast.Constant)]
+        if any(isinstance(side, ast.Name) and side.id == "__name__" for side in sides) and texts != ["__main__"]:
+            yield (
+                node.lineno,
+                "the name of a file that is run is '__main__', with two underscores on either side: what stands below "
+                f"this condition, {unparse(node.test)}, never runs",
+            )
+
+
+def _spins(statement: ast.stmt) -> bool:
+    return _call(statement).rpartition(".")[2] == "spin"
+
+
+@slip
 def behind_spin(tree: ast.AST) -> Iterator[Place]:
     """Find what is called behind spin(), also in the `finally` of a `try` that spins.
 
@@ -59,10 +80,7 @@ def behind_spin(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-def _spins(statement: ast.stmt) -> bool:
-    return _call(statement).rpartition(".")[2] == "spin"
-
-
+@slip
 def behind_return(tree: ast.AST) -> Iterator[Place]:
     for block in blocks(tree):
         ends = [
@@ -77,20 +95,7 @@ def behind_return(tree: ast.AST) -> Iterator[Place]:
             return
 
 
-def other_name_than_main(tree: ast.Module) -> Iterator[Place]:
-    for node in tree.body:
-        if not isinstance(node, ast.If) or not isinstance(node.test, ast.Compare):
-            continue
-        sides = [node.test.left, *node.test.comparators]
-        texts = [side.value for side in sides if isinstance(side, ast.Constant)]
-        if any(isinstance(side, ast.Name) and side.id == "__name__" for side in sides) and texts != ["__main__"]:
-            yield (
-                node.lineno,
-                "the name of a file that is run is '__main__', with two underscores on either side: what stands below "
-                f"this condition, {unparse(node.test)}, never runs",
-            )
-
-
+@slip
 def cancelled_at_once(tree: ast.AST) -> Iterator[Place]:
     """Find a timer that `__init__` makes and cancels, and that nothing resets."""
     for function in (node for node in nodes_of(tree, ast.FunctionDef) if node.name == "__init__"):
@@ -103,6 +108,7 @@ def cancelled_at_once(tree: ast.AST) -> Iterator[Place]:
                 yield statement.lineno, f"{timer} is cancelled in __init__, before it has fired once: cancel it later"
 
 
+@slip
 def never_true(tree: ast.AST) -> Iterator[Place]:
     """Find `if self.x:` where `self.x` begins as False, None or 0 and only the block below changes it.
 
@@ -161,6 +167,7 @@ def _changes(node: ast.AST, name: str) -> bool:
     )
 
 
+@slip
 def one_callback_of_two(tree: ast.AST) -> Iterator[Place]:
     """Find two timers of one block with the same callback."""
     for block in blocks(tree):
@@ -175,6 +182,7 @@ def one_callback_of_two(tree: ast.AST) -> Iterator[Place]:
                 seen[callback] = call.lineno
 
 
+@slip
 def ended_before(tree: ast.AST) -> Iterator[Place]:
     """Find a publish() behind the call that ends ROS or the node, in one block."""
     for block in blocks(tree):
@@ -186,6 +194,7 @@ def ended_before(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
+@slip
 def counts_too_far(tree: ast.AST) -> Iterator[Place]:
     """Find a callback of a timer that does something at one count of its ticks, long after the start."""
     functions = {node.name: node for node in nodes_of(tree, ast.FunctionDef)}
@@ -210,9 +219,3 @@ def counts_too_far(tree: ast.AST) -> Iterator[Place]:
                     f"{unparse(counter)} is {number:g} only after {number:g} ticks of {period.value:g} s, which "
                     f"take {number * period.value:g} s",
                 )
-
-
-LOOKS = (
-    other_name_than_main, behind_spin, behind_return, cancelled_at_once, never_true, one_callback_of_two, ended_before,
-    counts_too_far,
-)  # fmt: skip

@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 NUMPY = ("np", "numpy")
 FILLED = {"zeros": 1, "ones": 1, "empty": 1, "full": 2, "array": 1, "zeros_like": 1, "full_like": 2}  # place of dtype
@@ -22,6 +23,7 @@ SMALL = re.compile(r"(?:np\.|numpy\.|['\"])(?P<unsigned>u)?int8\b")
 KEEPS_FRACTIONS = frozenset({"max", "min", "maximum", "minimum", "clip", "abs", "where", "fmax", "fmin"})
 
 
+@slip
 def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
     """Find `odds[cell] += 0.9`, or `odds[cell] = odds[cell] - 0.4`, where `odds` is an array of whole numbers."""
     values, names = set_to(tree), named_numbers(tree)
@@ -58,6 +60,7 @@ def fractions_cut_off(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
+@slip
 def counters_that_wrap(tree: ast.AST) -> Iterator[Place]:
     """Find `hits[cell] += 1` where `hits` is an array of one byte for each number, and nothing limits it."""
     values = set_to(tree)
@@ -188,6 +191,3 @@ def _fractions(
             value = number(each, names)
             if value is not None and value != int(value):
                 yield float(value)
-
-
-LOOKS = (fractions_cut_off, counters_that_wrap)

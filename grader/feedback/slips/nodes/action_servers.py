@@ -17,6 +17,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.slips import slip
 
 # Position of each callback among the arguments; -1 for those that are given by name only.
 PLACES = {"execute_callback": 3, "goal_callback": -1, "cancel_callback": -1, "handle_accepted_callback": -1}
@@ -58,6 +59,7 @@ def _returned(function: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> 
     return [each.value for each in nodes_of(function, ast.Return) if id(each) not in inner]
 
 
+@slip
 def answers(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that answers to a goal, or to a wish to cancel, with something else than an answer."""
     for role, function in _callbacks(tree):
@@ -81,6 +83,7 @@ def answers(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def no_result(tree: ast.AST) -> Iterator[Place]:
     for role, function in _callbacks(tree):
         if role == "execute_callback" and all(each is None for each in _returned(function)):
@@ -100,6 +103,7 @@ def no_result(tree: ast.AST) -> Iterator[Place]:
                     )
 
 
+@slip
 def no_message_as_result(tree: ast.AST) -> Iterator[Place]:
     """Find an execute callback that returns a number, a truth value, or a field of its Result."""
     for role, function in _callbacks(tree):
@@ -127,6 +131,7 @@ def _callee(node: ast.expr) -> ast.expr:
     return node.func if isinstance(node, ast.Call) else node
 
 
+@slip
 def keeps_the_only_thread(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that waits in execute, in a node with one thread; a coroutine without await is no other."""
     names = {unparse(node.func).rpartition(".")[2] for node in nodes_of(tree, ast.Call) if not _one_thread(node)}
@@ -155,19 +160,7 @@ def _one_thread(call: ast.Call) -> bool:
     return many and any(isinstance(each, ast.Constant) and each.value == 1 for each in given)
 
 
-def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
-    """Find a goal that is ended in the callback that only answers whether it may be cancelled."""
-    for role, function in _callbacks(tree):
-        for call in nodes_of(function, ast.Call):
-            name = unparse(call.func)
-            if role == "cancel_callback" and name.rpartition(".")[2] == "canceled":
-                yield (
-                    call.lineno,
-                    f"cancel_callback only answers whether the goal may be cancelled, and {name}() raises an error "
-                    "there: call it in execute, where is_cancel_requested is true, and return the result",
-                )
-
-
+@slip
 def spins_itself(tree: ast.AST) -> Iterator[Place]:
     """Find an execute callback that spins the node it belongs to."""
     for role, function in _callbacks(tree):
@@ -182,6 +175,21 @@ def spins_itself(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
+def ended_by_the_answer(tree: ast.AST) -> Iterator[Place]:
+    """Find a goal that is ended in the callback that only answers whether it may be cancelled."""
+    for role, function in _callbacks(tree):
+        for call in nodes_of(function, ast.Call):
+            name = unparse(call.func)
+            if role == "cancel_callback" and name.rpartition(".")[2] == "canceled":
+                yield (
+                    call.lineno,
+                    f"cancel_callback only answers whether the goal may be cancelled, and {name}() raises an error "
+                    "there: call it in execute, where is_cancel_requested is true, and return the result",
+                )
+
+
+@slip
 def never_executed(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for accepted goals that does not execute them."""
     for role, function in _callbacks(tree):
@@ -193,6 +201,7 @@ def never_executed(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
     """Find succeed() in execute above its first loop, not below a condition."""
     for role, function in _callbacks(tree):
@@ -211,6 +220,7 @@ def ends_before_it_drives(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def without_a_pause(tree: ast.AST) -> Iterator[Place]:
     """Find a loop in execute that publishes as fast as the computer can."""
     sleeping = {each.name for each in walk(tree) if isinstance(each, FUNCTIONS) and _pauses(each)}
@@ -234,6 +244,7 @@ def _pauses(node: ast.AST) -> bool:
     return awaits or bool(called(node) & PAUSES)
 
 
+@slip
 def keeps_a_lock(tree: ast.AST) -> Iterator[Place]:
     """Find a lock that is held while a loop sleeps, in a file where a callback waits for the same lock."""
     made = {unparse(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in LOCKS}
@@ -265,9 +276,3 @@ def _held(function: ast.FunctionDef) -> Iterator[tuple[str, int, list[ast.stmt]]
                     break
                 held.append(later)
             yield lock, statement.lineno, held
-
-
-LOOKS = (
-    answers, no_result, no_message_as_result, keeps_the_only_thread, spins_itself, ended_by_the_answer,
-    never_executed, ends_before_it_drives, without_a_pause, keeps_a_lock,
-)  # fmt: skip

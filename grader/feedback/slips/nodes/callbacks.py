@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 # Method -> position of its callback.
 CREATE = {
@@ -25,6 +26,7 @@ def handed_over(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
             yield node, given[0]
 
 
+@slip
 def called_at_once(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that is called where it should be passed."""
     functions = {node.name: node for node in nodes_of(tree, ast.FunctionDef, ast.AsyncFunctionDef)}
@@ -54,6 +56,7 @@ def _returns_something(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool
     return any(node.value is not None and unparse(node.value) != "None" for node in returned)
 
 
+@slip
 def not_called_in_a_lambda(tree: ast.AST) -> Iterator[Place]:
     """Find `lambda: self.tick`, which names the function and does not call it."""
     for _, given in handed_over(tree):
@@ -65,6 +68,7 @@ def not_called_in_a_lambda(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def texts_for_callbacks(tree: ast.AST) -> Iterator[Place]:
     """Find the name of a function in quotes, or None, where the function belongs."""
     for call, given in handed_over(tree):
@@ -73,6 +77,7 @@ def texts_for_callbacks(tree: ast.AST) -> Iterator[Place]:
             yield call.lineno, f"{value} is given where the callback is needed: pass the function itself, self.NAME"
 
 
+@slip
 def async_publish(tree: ast.AST) -> Iterator[Place]:
     """Find a call of the file's own `async def` that nobody awaits: it does not run."""
     own = {node.name for node in nodes_of(tree, ast.AsyncFunctionDef)}
@@ -84,6 +89,3 @@ def async_publish(tree: ast.AST) -> Iterator[Place]:
                     node.lineno,
                     f"{name}() makes a coroutine that nobody awaits, so it does not run: def without async",
                 )
-
-
-LOOKS = (called_at_once, not_called_in_a_lambda, texts_for_callbacks, async_publish)

@@ -6,10 +6,12 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, assigned, called, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
+@slip
 def once_before_any_message(tree: ast.AST) -> Iterator[Place]:
     """Find `self.control()` in `__init__`, the only call of a method that returns while an attribute is None."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -46,6 +48,3 @@ def _awaited(method: Function, none: set[str]) -> str:
             if names:
                 return names[0]
     return ""
-
-
-LOOKS = (once_before_any_message,)

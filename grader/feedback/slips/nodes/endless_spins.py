@@ -6,12 +6,14 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, called, calls, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip
 
 ENDS = frozenset({"BaseException", "KeyboardInterrupt"})
 LEAVES = ast.Break | ast.Return | ast.Raise
 EXITS = frozenset({"exit", "_exit", "quit", "abort"})
 
 
+@slip
 def never_ends(tree: ast.AST) -> Iterator[Place]:
     """Find `while True` with a `try` inside that spins, catches KeyboardInterrupt and goes on."""
     for loop in nodes_of(tree, ast.While):
@@ -45,6 +47,7 @@ def _asks_whether_ok(loop: ast.While) -> bool:
     return any("ok" in called(test) for test in tests)
 
 
+@slip
 def spins_too_little(tree: ast.AST) -> Iterator[Place]:
     """Find a program with callbacks that calls spin_once() outside of every loop, or nothing that spins."""
     names = called(tree)
@@ -69,6 +72,3 @@ def spins_too_little(tree: ast.AST) -> Iterator[Place]:
             "spin_once() waits for one event and returns, so the program ends after the first: rclpy.spin(node) stays "
             "until Ctrl-C",
         )
-
-
-LOOKS = (never_ends, spins_too_little)

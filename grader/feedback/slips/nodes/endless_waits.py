@@ -16,6 +16,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "ThreadPoolExecutor", "Process"})
@@ -25,6 +26,7 @@ PROGRESS = frozenset({
 })  # fmt: skip
 
 
+@slip
 def waits_for_another_callback(tree: ast.AST) -> Iterator[Place]:
     """Find `while abs(goal - self.yaw) > 0.1: publish(...)` in a timer's callback, where /odom's callback sets yaw."""
     if called(tree) & THREADS:
@@ -76,6 +78,3 @@ def _read(node: ast.AST) -> set[str]:
 def _circular(changed: dict[str, set[str]], tested: set[str]) -> bool:
     """Return whether what is tested is computed of what the loop itself changes, as by one step after another."""
     return any(changed[name] & changed.keys() for name in tested & changed.keys())
-
-
-LOOKS = (waits_for_another_callback,)

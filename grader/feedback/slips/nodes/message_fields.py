@@ -7,18 +7,20 @@ Source: the constructors that rosidl_generator_py writes.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import Run, slip_of_run
 from gz_course.sim.did_you_mean import nearest_name
 
 
-def unknown_fields(tree: ast.AST, fields: Mapping[str, list[str]]) -> Iterator[Place]:
+@slip_of_run
+def unknown_fields(tree: ast.AST, run: Run) -> Iterator[Place]:
     others, modules = _other_owners(tree), _modules(tree)
     for node in nodes_of(tree, ast.Call):
         owner, _, kind = unparse(node.func).rpartition(".")
         foreign = not (owner.endswith(".msg") or owner in modules) if owner else kind in others
-        known = [] if foreign else fields.get(kind, [])
+        known = [] if foreign else run.fields.get(kind, [])
         for word in node.keywords if known else ():
             if word.arg is None or word.arg in known:
                 continue

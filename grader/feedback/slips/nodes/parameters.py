@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from gz_course.grader.feedback.facts.ros_parameters import ASKS, declared, listeners, members, objects, owners, reads
 from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import Run, slip, slip_of_run
 from gz_course.sim.did_you_mean import nearest_name
 
 RESULT = "SetParametersResult"
@@ -17,6 +18,7 @@ NAMES = {float: "a double", int: "an integer", str: "a text", bool: "a truth val
 CASES = frozenset({"lower", "upper", "capitalize", "title", "casefold"})
 
 
+@slip
 def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for changes of parameters that returns nothing, or a truth value."""
     functions = {node.name: node for node in nodes_of(tree, ast.FunctionDef)}
@@ -35,6 +37,7 @@ def callbacks_without_result(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def results_that_refuse(tree: ast.AST) -> Iterator[Place]:
     """Find `return SetParametersResult()`, whose field `successful` is False."""
     if ".successful" in unparse(tree):
@@ -48,6 +51,7 @@ def results_that_refuse(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def callbacks_that_nobody_calls(tree: ast.AST) -> Iterator[Place]:
     """Find a function that answers with a SetParametersResult in a file that registers none."""
     if "_set_parameters_callback" in unparse(tree):
@@ -61,6 +65,7 @@ def callbacks_that_nobody_calls(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def objects_for_values(tree: ast.AST) -> Iterator[Place]:
     """Find `get_parameter('side') == 'left'`, which compares an object with a text and never holds."""
     held = objects(tree)
@@ -109,6 +114,7 @@ def _plain(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value is not None
 
 
+@slip
 def objects_for_names(tree: ast.AST) -> Iterator[Place]:
     """Find `if parameter == 'distance':` in a callback for changes, where the name of the Parameter is meant."""
     for function in listeners(tree):
@@ -130,6 +136,7 @@ def objects_for_names(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
     """Find `.integer_value` of a parameter that is a double: only the field of its own type is set."""
     known = declared(tree) or {}
@@ -161,6 +168,7 @@ def fields_of_another_type(tree: ast.AST) -> Iterator[Place]:
                     )
 
 
+@slip
 def whole_numbers_of_doubles(tree: ast.AST) -> Iterator[Place]:
     """Find `int(self.get_parameter('distance').value)` of a parameter whose default is not a whole number."""
     values = _values(tree, float)
@@ -176,6 +184,7 @@ def whole_numbers_of_doubles(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def texts_for_truth(tree: ast.AST) -> Iterator[Place]:
     """Find `1 if side else -1` where side is a text, which counts as true whatever it says."""
     values = _values(tree, str)
@@ -208,6 +217,7 @@ def _values(tree: ast.AST, kind: type) -> dict[str, object]:
     return found
 
 
+@slip
 def other_spelling(tree: ast.AST) -> Iterator[Place]:
     """Find `side == 'Left'` where the value of the parameter is 'left', and nothing changes capitals."""
     values = {
@@ -234,6 +244,7 @@ def other_spelling(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def read_as_it_was(tree: ast.Module) -> Iterator[Place]:
     """Find get_parameter() in the callback for changes, kept in an attribute: it still returns the old value."""
     inside, heard = owners(tree), {function.name: function for function in listeners(tree)}
@@ -258,24 +269,7 @@ def read_as_it_was(tree: ast.Module) -> Iterator[Place]:
                 return
 
 
-def set_over_what_is_given(tree: ast.Module) -> Iterator[Place]:
-    """Find a node that sets a parameter of its own in __init__ to the default that it has declared."""
-    inside, known = owners(tree), declared(tree) or {}
-    for call, name in calls(tree):
-        if name != "set_parameters" or inside[id(call)] != "__init__" or not unparse(call.func).startswith("self."):
-            continue
-        for each in (node for node in nodes_of(call, ast.Call) if last_name(node.func) == "Parameter"):
-            first = each.args[0].value if each.args and isinstance(each.args[0], ast.Constant) else None
-            given = [*each.args[2:], *(one.value for one in each.keywords if one.arg == "value")]
-            if first in known and given and isinstance(given[0], ast.Constant):
-                yield (
-                    call.lineno,
-                    f"{unparse(each)[:60]} replaces the value that the node was started with: declare_parameter() "
-                    f"has taken that for {first} already, so remove it",
-                )
-                return
-
-
+@slip
 def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
     """Find a callback for changes that takes the value of any parameter for that of one."""
     known = set(declared(tree) or {})
@@ -315,6 +309,25 @@ def whatever_is_set(tree: ast.AST) -> Iterator[Place]:
                 break
 
 
+@slip
+def set_over_what_is_given(tree: ast.Module) -> Iterator[Place]:
+    """Find a node that sets a parameter of its own in __init__ to the default that it has declared."""
+    inside, known = owners(tree), declared(tree) or {}
+    for call, name in calls(tree):
+        if name != "set_parameters" or inside[id(call)] != "__init__" or not unparse(call.func).startswith("self."):
+            continue
+        for each in (node for node in nodes_of(call, ast.Call) if last_name(node.func) == "Parameter"):
+            first = each.args[0].value if each.args and isinstance(each.args[0], ast.Constant) else None
+            given = [*each.args[2:], *(one.value for one in each.keywords if one.arg == "value")]
+            if first in known and given and isinstance(given[0], ast.Constant):
+                yield (
+                    call.lineno,
+                    f"{unparse(each)[:60]} replaces the value that the node was started with: declare_parameter() "
+                    f"has taken that for {first} already, so remove it",
+                )
+                return
+
+
 def _any(code: str, names: Sequence[str]) -> str:
     return (
         f"{code[:60]} takes the new value of {' and of '.join(names)} alike, whichever was set: ask for the .name of "
@@ -340,11 +353,12 @@ def _keeping(tree: ast.AST, name: str) -> Iterator[ast.Assign]:
             yield node
 
 
-def declared_otherwise(tree: ast.AST, names: Sequence[str]) -> Iterator[Place]:
+@slip_of_run
+def declared_otherwise(tree: ast.AST, run: Run) -> Iterator[Place]:
     """Find a parameter of the exercise that is declared under another name, and so never gets its value."""
     known = declared(tree) or {}
-    others = [name for name in known if name not in names]
-    for name in names:
+    others = [name for name in known if name not in run.names]
+    for name in run.names:
         if name in known or not others:
             continue
         near = nearest_name(name, others) or next((each for each in others if name in each or each in name), "")
@@ -354,10 +368,3 @@ def declared_otherwise(tree: ast.AST, names: Sequence[str]) -> Iterator[Place]:
                 f"the parameter {near} is declared here, and the task calls it {name}: under another name a node "
                 "does not get the value that is given",
             )
-
-
-LOOKS = (
-    callbacks_without_result, results_that_refuse, callbacks_that_nobody_calls, objects_for_values, objects_for_names,
-    fields_of_another_type, whole_numbers_of_doubles, texts_for_truth, other_spelling, read_as_it_was, whatever_is_set,
-    set_over_what_is_given,
-)  # fmt: skip

@@ -6,11 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, unparse, walk
+from gz_course.grader.feedback.slips import slip
+
+BEFORE = ("map_starts",)
 
 BEGINNINGS = frozenset({"__init__", "main"})
 WAITS = frozenset({"spin", "spin_once", "sleep", "wait", "get_subscription_count"})
 
 
+@slip
 def never_published(tree: ast.AST) -> Iterator[Place]:
     """Find a publisher in a file in which nothing is ever published."""
     if any(getattr(node, "attr", getattr(node, "id", "")) == "publish" for node in walk(tree)):
@@ -24,6 +28,7 @@ def never_published(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def made_for_one_message(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that makes a publisher and publishes at once."""
     for function in functions(tree):
@@ -46,6 +51,3 @@ def made_for_one_message(tree: ast.AST) -> Iterator[Place]:
                 f"{function.name} makes the publisher and publishes at once, before anybody has found it, so the "
                 "message is lost: a publisher is made once, in __init__",
             )
-
-
-LOOKS = (never_published, made_for_one_message)

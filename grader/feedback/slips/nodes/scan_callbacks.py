@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, calls, functions, kept, left_early, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 
 LONG = 0.05  # [s] of sleep; data come 10 times a second and faster
 ASKS_FOR_INVALID = ("isinf", "isnan", "isfinite", "range_max", "range_min", "inf", "nan")
@@ -30,6 +31,29 @@ def _handed(tree: ast.AST) -> frozenset[tuple[str, str]]:
     return frozenset(found)
 
 
+@slip
+def ended_by_an_invalid_ray(tree: ast.AST) -> Iterator[Place]:
+    """Find `return` or `break` in a loop over all rays where a ray is not valid: the rays behind it are lost."""
+    for loop in nodes_of(tree, ast.For):
+        if ".ranges" not in unparse(loop.iter):
+            continue
+        for node in (each for each in loop.body if isinstance(each, ast.If) and len(each.body) == 1):
+            leaves = node.body[0]
+            ends = isinstance(leaves, ast.Break) or (isinstance(leaves, ast.Return) and leaves.value is None)
+            text = unparse(node.test)
+            invalid = re.search(
+                r"not (?:\w+\.)?isfinite\(|(?<!not )(?<!not math\.)(?<!not np\.)\b(?:isinf|isnan)\(|== .*inf", text
+            )
+            if ends and invalid and "enumerate" not in text and not node.orelse and len(loop.body) > 1:
+                yield (
+                    leaves.lineno,
+                    f"{unparse(leaves)} ends the whole loop over the rays at the first one that is not valid, so "
+                    "the rays behind it are left out: continue goes on with the next ray",
+                )
+                return
+
+
+@slip
 def sleeping(tree: ast.AST) -> Iterator[Place]:
     """Find a callback of a subscription that sleeps."""
     handed = callbacks(tree, ("create_subscription",))
@@ -44,6 +68,7 @@ def sleeping(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def kept_defaults(tree: ast.AST) -> Iterator[Place]:
     """Find a list that is the default of a parameter, and is added to."""
     for function in functions(tree):
@@ -64,6 +89,7 @@ def kept_defaults(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def one_ray_skips_the_scan(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that returns if any ray is not valid."""
     for function in functions(tree):
@@ -80,6 +106,7 @@ def one_ray_skips_the_scan(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
     """Find publish() within a loop over the rays of a scan."""
     for function in functions(tree):
@@ -102,27 +129,3 @@ def published_for_each_ray(tree: ast.AST) -> Iterator[Place]:
                         "them: by its indentation it belongs after the loop",
                     )
                     break
-
-
-def ended_by_an_invalid_ray(tree: ast.AST) -> Iterator[Place]:
-    """Find `return` or `break` in a loop over all rays where a ray is not valid: the rays behind it are lost."""
-    for loop in nodes_of(tree, ast.For):
-        if ".ranges" not in unparse(loop.iter):
-            continue
-        for node in (each for each in loop.body if isinstance(each, ast.If) and len(each.body) == 1):
-            leaves = node.body[0]
-            ends = isinstance(leaves, ast.Break) or (isinstance(leaves, ast.Return) and leaves.value is None)
-            text = unparse(node.test)
-            invalid = re.search(
-                r"not (?:\w+\.)?isfinite\(|(?<!not )(?<!not math\.)(?<!not np\.)\b(?:isinf|isnan)\(|== .*inf", text
-            )
-            if ends and invalid and "enumerate" not in text and not node.orelse and len(loop.body) > 1:
-                yield (
-                    leaves.lineno,
-                    f"{unparse(leaves)} ends the whole loop over the rays at the first one that is not valid, so "
-                    "the rays behind it are left out: continue goes on with the next ray",
-                )
-                return
-
-
-LOOKS = (ended_by_an_invalid_ray, sleeping, kept_defaults, one_ray_skips_the_scan, published_for_each_ray)

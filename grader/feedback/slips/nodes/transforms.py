@@ -22,6 +22,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
@@ -38,6 +39,7 @@ def _threads(tree: ast.AST) -> bool:
     )
 
 
+@slip
 def new_buffers(tree: ast.AST) -> Iterator[Place]:
     """Find a buffer, or a listener, that a callback makes anew each time."""
     handed = callbacks(tree)
@@ -55,6 +57,7 @@ def new_buffers(tree: ast.AST) -> Iterator[Place]:
                 break
 
 
+@slip
 def no_listener(tree: ast.AST) -> Iterator[Place]:
     """Find a buffer that nothing fills."""
     names = {node.id for node in nodes_of(tree, ast.Name)}
@@ -70,6 +73,7 @@ def no_listener(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def waiting_loops(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that waits for a transform while nothing in the node can hear one, and spinning in a callback."""
     if _threads(tree):
@@ -102,6 +106,7 @@ def _endless(loop: ast.While) -> bool:
     )
 
 
+@slip
 def of_this_moment(tree: ast.AST) -> Iterator[Place]:
     """Find a lookup at the time now, for data that came now: its transform cannot have come yet."""
     for function in functions(tree):
@@ -117,6 +122,7 @@ def of_this_moment(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
+@slip
 def other_time_asked_first(tree: ast.AST) -> Iterator[Place]:
     """Find can_transform() of the latest transform before a lookup, not in a try, at the time of a message."""
     tried = {id(n) for each in nodes_of(tree, ast.Try) for part in each.body for n in walk(part)}
@@ -144,6 +150,7 @@ def _is_latest(node: ast.expr) -> bool:
     return isinstance(node, ast.Call) and last_name(node.func) == "Time" and not node.args and not node.keywords
 
 
+@slip
 def into_itself(tree: ast.AST) -> Iterator[Place]:
     """Find a lookup whose two frames are the same expression."""
     for call, _ in _lookups(tree):
@@ -275,6 +282,3 @@ def _shared(tree: ast.Module) -> Iterator[int]:
             if unparse(node.targets[0]).removesuffix(".frame_id") in same
             and unparse(node.targets[0]).endswith(".frame_id")
         )
-
-
-LOOKS = (new_buffers, no_listener, waiting_loops, of_this_moment, other_time_asked_first, into_itself)

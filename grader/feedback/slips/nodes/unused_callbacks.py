@@ -6,11 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, called, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.nodes.callbacks import handed_over
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
+@slip
 def never_called(tree: ast.AST) -> Iterator[Place]:
     """Find a method whose name stands nowhere else, and which alone sets an attribute after `__init__`."""
     used = _mentioned(tree)
@@ -75,6 +77,3 @@ def _passed_twice(tree: ast.AST, unused: Function) -> tuple[int, str]:
             return call.lineno, f"this subscription calls {callback}, as that of line {seen[callback]} does, and "
         seen[callback] = call.lineno
     return 0, ""
-
-
-LOOKS = (never_called,)

@@ -6,7 +6,10 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, left_early, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.language.unreached import blocks
+
+BEFORE = ("endless_spins",)
 
 SPINS = frozenset(
     {"spin", "spin_once", "spin_some", "spin_until_future_complete", "wait_for_message", "wait_for_service"}
@@ -16,6 +19,73 @@ PAUSE = 0.05  # [s] of sleep between two calls of spin_once
 THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "ThreadPoolExecutor", "Process"})
 
 
+@slip
+def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
+    """Find an executor that gets nodes in a file where nothing spins."""
+    spins = {name for name in called(tree) if name.startswith("spin")}
+    for call, name in calls(tree):
+        if name == "add_node" and isinstance(call.func, ast.Attribute) and not spins:
+            executor = unparse(call.func.value)
+            yield (
+                call.lineno,
+                f"{executor} gets a node here, but nothing lets it work: {executor}.spin() is missing after it",
+            )
+
+
+def _runs_before_spin(function: ast.FunctionDef, tree: ast.AST) -> bool:
+    """Return whether a function is `__init__`, `main`, or a method that main calls and no timer does."""
+    if function.name in ("__init__", "main"):
+        return True
+    text = f".{function.name}"
+    handed = any(
+        isinstance(node, ast.Attribute) and node.attr == function.name and isinstance(node.ctx, ast.Load)
+        for call in nodes_of(tree, ast.Call)
+        for node in [*call.args, *(each.value for each in call.keywords)]
+    )
+    mains = [node for node in nodes_of(tree, ast.FunctionDef) if node.name == "main"]
+    return not handed and any(function.name in called(main) or text in unparse(main) for main in mains)
+
+
+@slip
+def another_executor_spins(tree: ast.AST) -> Iterator[Place]:
+    """Find `rclpy.spin(node)` beside a MultiThreadedExecutor that got the node and is never spun itself."""
+    made = {
+        unparse(node.targets[0])
+        for node in nodes_of(tree, ast.Assign)
+        if "MultiThreadedExecutor(" in unparse(node.value)
+    }
+    code = [(call, unparse(call.func)) for call, _ in calls(tree)]
+    for name in made:
+        used = any(text.startswith(f"{name}.spin") for _, text in code)
+        handed = any(name == unparse(each.value) for call, _ in code for each in call.keywords)
+        handed |= any(name == unparse(each) for call, _ in code for each in call.args)
+        for call, text in code:
+            if text in ("rclpy.spin", "spin") and len(call.args) == 1 and not used and not handed and not call.keywords:
+                yield (
+                    call.lineno,
+                    f"{unparse(call)} takes the node out of {name}, and spins it in one thread: the call is "
+                    f"{name}.spin()",
+                )
+                return
+
+
+@slip
+def rates(tree: ast.AST) -> Iterator[Place]:
+    """Find the sleep() of a Rate inside of a callback of a node with one thread."""
+    if "create_rate" not in called(tree) or THREADS & called(tree):
+        return
+    rate = {unparse(node.targets[0]) for node in nodes_of(tree, ast.Assign) if "create_rate" in called(node.value)}
+    for node in nodes_of(tree, ast.Call):
+        if unparse(node.func) in {f"{name}.sleep" for name in rate}:
+            yield (
+                node.lineno,
+                f"{unparse(node.func)}() waits for a timer of the node, which only another thread could run: it "
+                "never returns. A timer, create_timer(PERIOD, callback), calls a function again and again",
+            )
+            return
+
+
+@slip
 def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
     """Find an endless loop, or one that waits for the clock, in which nothing spins the node."""
     everything = called(tree)
@@ -47,35 +117,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-def _runs_before_spin(function: ast.FunctionDef, tree: ast.AST) -> bool:
-    """Return whether a function is `__init__`, `main`, or a method that main calls and no timer does."""
-    if function.name in ("__init__", "main"):
-        return True
-    text = f".{function.name}"
-    handed = any(
-        isinstance(node, ast.Attribute) and node.attr == function.name and isinstance(node.ctx, ast.Load)
-        for call in nodes_of(tree, ast.Call)
-        for node in [*call.args, *(each.value for each in call.keywords)]
-    )
-    mains = [node for node in nodes_of(tree, ast.FunctionDef) if node.name == "main"]
-    return not handed and any(function.name in called(main) or text in unparse(main) for main in mains)
-
-
-def rates(tree: ast.AST) -> Iterator[Place]:
-    """Find the sleep() of a Rate inside of a callback of a node with one thread."""
-    if "create_rate" not in called(tree) or THREADS & called(tree):
-        return
-    rate = {unparse(node.targets[0]) for node in nodes_of(tree, ast.Assign) if "create_rate" in called(node.value)}
-    for node in nodes_of(tree, ast.Call):
-        if unparse(node.func) in {f"{name}.sleep" for name in rate}:
-            yield (
-                node.lineno,
-                f"{unparse(node.func)}() waits for a timer of the node, which only another thread could run: it "
-                "never returns. A timer, create_timer(PERIOD, callback), calls a function again and again",
-            )
-            return
-
-
+@slip
 def executors(tree: ast.AST) -> Iterator[Place]:
     """Find an executor that is spun and was given no node."""
     for node in nodes_of(tree, ast.Assign):
@@ -90,6 +132,7 @@ def executors(tree: ast.AST) -> Iterator[Place]:
             yield node.lineno, f"{name} is spun, but no node is in it: {name}.add_node(node) comes before {name}.spin()"
 
 
+@slip
 def other_node(tree: ast.AST) -> Iterator[Place]:
     """Find a spin() of a new plain node, or of a second object of the class, beside the node that does the work."""
     classes = {
@@ -115,6 +158,11 @@ def other_node(tree: ast.AST) -> Iterator[Place]:
             yield node.lineno, f"this makes a second {kind} and spins it; the first one, made before, is never spun"
 
 
+def _is_call(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)
+
+
+@slip
 def shut_down_first(tree: ast.AST) -> Iterator[Place]:
     """Find a spin() behind rclpy.shutdown() or destroy_node() in one block."""
     for block in blocks(tree):
@@ -128,6 +176,7 @@ def shut_down_first(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
+@slip
 def sleeps_between_spins(tree: ast.AST) -> Iterator[Place]:
     """Find time.sleep() in the loop that calls spin_once()."""
     for loop in nodes_of(tree, ast.While, ast.For):
@@ -143,47 +192,3 @@ def sleeps_between_spins(tree: ast.AST) -> Iterator[Place]:
                     "spin_once() runs one; leave it out, or call rclpy.spin(node)",
                 )
                 return
-
-
-def _is_call(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call)
-
-
-def executors_never_spun(tree: ast.AST) -> Iterator[Place]:
-    """Find an executor that gets nodes in a file where nothing spins."""
-    spins = {name for name in called(tree) if name.startswith("spin")}
-    for call, name in calls(tree):
-        if name == "add_node" and isinstance(call.func, ast.Attribute) and not spins:
-            executor = unparse(call.func.value)
-            yield (
-                call.lineno,
-                f"{executor} gets a node here, but nothing lets it work: {executor}.spin() is missing after it",
-            )
-
-
-def another_executor_spins(tree: ast.AST) -> Iterator[Place]:
-    """Find `rclpy.spin(node)` beside a MultiThreadedExecutor that got the node and is never spun itself."""
-    made = {
-        unparse(node.targets[0])
-        for node in nodes_of(tree, ast.Assign)
-        if "MultiThreadedExecutor(" in unparse(node.value)
-    }
-    code = [(call, unparse(call.func)) for call, _ in calls(tree)]
-    for name in made:
-        used = any(text.startswith(f"{name}.spin") for _, text in code)
-        handed = any(name == unparse(each.value) for call, _ in code for each in call.keywords)
-        handed |= any(name == unparse(each) for call, _ in code for each in call.args)
-        for call, text in code:
-            if text in ("rclpy.spin", "spin") and len(call.args) == 1 and not used and not handed and not call.keywords:
-                yield (
-                    call.lineno,
-                    f"{unparse(call)} takes the node out of {name}, and spins it in one thread: the call is "
-                    f"{name}.spin()",
-                )
-                return
-
-
-LOOKS = (
-    executors_never_spun, another_executor_spins, rates, loops_before_spin, executors, other_node, shut_down_first,
-    sleeps_between_spins,
-)  # fmt: skip

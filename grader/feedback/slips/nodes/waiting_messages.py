@@ -16,6 +16,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.nodes.transforms import ASKED, KEEPS
 
 TAKES = frozenset({"pop", "popleft", "get", "get_nowait"})
@@ -64,6 +65,7 @@ def _over(loop: ast.For) -> str:
     return unparse(loop.iter)
 
 
+@slip
 def taken_too_early(tree: ast.AST) -> Iterator[Place]:
     """Find a loop that takes each message out of its list, asks for its transform then, and never puts it back."""
     for function in functions(tree):
@@ -111,6 +113,7 @@ def _looked_at_first(loop: ast.AST, kept: str, tree: ast.AST) -> bool:
     return any(f"{kept}[" in unparse(call) for call, _ in calls(loop) if _asks(call, tree))
 
 
+@slip
 def emptied(tree: ast.AST) -> Iterator[Place]:
     """Find a list that is emptied behind the loop that asks for the transforms of its messages."""
     for function in functions(tree):
@@ -136,6 +139,7 @@ def _in_finally(function: ast.FunctionDef, node: ast.AST) -> bool:
     return any(node in each.finalbody for each in nodes_of(function, ast.Try))
 
 
+@slip
 def kept_when_done(tree: ast.AST) -> Iterator[Place]:
     """Find `waiting = [one for one in waiting if self.answer(one)]` where answer() is false without one."""
     false = {
@@ -164,6 +168,7 @@ def kept_when_done(tree: ast.AST) -> Iterator[Place]:
             )
 
 
+@slip
 def first_for_ever(tree: ast.AST) -> Iterator[Place]:
     """Find a list, or an attribute, whose first message is the only one that is asked for and leaves when answered."""
     for kept, line in _asked_alone(tree).items():
@@ -255,6 +260,7 @@ def _ends(block: list[ast.stmt]) -> bool:
     return isinstance(block[-1], ast.Return | ast.Break | ast.Continue | ast.Raise)
 
 
+@slip
 def time_of_another(tree: ast.AST) -> Iterator[Place]:
     """Find a loop over messages that asks for each transform at the time of the message that has just come."""
     for function in functions(tree):
@@ -281,6 +287,7 @@ def time_of_another(tree: ast.AST) -> Iterator[Place]:
                     )
 
 
+@slip
 def keyed_by_seconds(tree: ast.AST) -> Iterator[Place]:
     """Find a dictionary of messages whose key is `stamp.sec`, which all messages of one second share."""
     if "nanosec" in unparse(tree):
@@ -293,6 +300,3 @@ def keyed_by_seconds(tree: ast.AST) -> Iterator[Place]:
                 f"{unparse(target.slice)} is the same for all messages of one second, so each takes the place "
                 "of the one before: (stamp.sec, stamp.nanosec) is a key for each message",
             )
-
-
-LOOKS = (taken_too_early, emptied, kept_when_done, first_for_ever, time_of_another, keyed_by_seconds)

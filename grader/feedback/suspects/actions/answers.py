@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 ASKS = "is_cancel_requested"
 
@@ -25,6 +27,7 @@ def _answers(function: ast.FunctionDef) -> tuple[str, str] | None:
     return (then, otherwise[0]) if constant and otherwise and then != otherwise[0] else None
 
 
+@suspicion
 def answers_thrown_away(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.drive_to(point)` as a statement, where drive_to returns whether the goal was cancelled."""
     for function in functions(tree):
@@ -36,11 +39,8 @@ def answers_thrown_away(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(call, ast.Call) and last_name(call.func) == function.name:
                 yield (
                     call.lineno,
-                    "cancel",
+                    About.CANCEL,
                     f"{unparse(call.func)}() returns {answer[0]} when the goal is to be cancelled, and this line "
                     "throws that away, so execute goes on as if the waypoint were reached: ask what it returns, and "
                     "end the patrol there",
                 )
-
-
-LOOKS = (answers_thrown_away,)

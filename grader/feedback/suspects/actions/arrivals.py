@@ -7,16 +7,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    called,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 SIZES = frozenset({"abs", "fabs", "absolute"})
 COORDINATE = re.compile(r"(?:.*_)?(?:d|e|delta|diff|err|error|gap|off|rest)?_?([xy])(?:_.*)?")
@@ -75,6 +68,34 @@ def _conditions(tree: ast.AST) -> dict[str, ast.expr]:
     }
 
 
+@suspicion
+def squares(tree: ast.Module) -> Iterator[Suspect]:
+    """Find `distance ** 2 < 0.15`, or `dx * dx + dy * dy < 0.15`: the square of 0.39 m is that small, too."""
+    if not called(tree) & {"succeed"}:
+        return
+    known = named_numbers(tree)
+    squared = {unparse(target) for target, value in assigned(tree) if _is_square(value)}
+    for node in walk(tree):
+        match node:
+            case ast.Compare(left=left, ops=[ast.Gt() | ast.GtE() | ast.Lt() | ast.LtE()], comparators=[limit]):
+                pass
+            case _:
+                continue
+        value = number(limit, known)
+        if value is not None and NEAREST_SQUARE < value < 1 and (_is_square(left) or unparse(left) in squared):
+            yield (
+                node.lineno,
+                About.SQUARED,
+                f"`{unparse(node)[:80]}` compares a square with a distance: the square of {value**0.5:.2f} m is "
+                f"{value:g}, so the robot counts as there {value**0.5:.2f} m away: square the limit, too",
+            )
+
+
+def _broken_off(loop: ast.While) -> bool:
+    return any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
+
+
+@suspicion
 def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that counts as reached, or a loop to it that ends, as soon as x or y alone is near."""
     for function in functions(tree):
@@ -98,16 +119,13 @@ def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
             if fits and len(axes) == 2:
                 yield (
                     node.lineno,
-                    "one_axis",
+                    About.ONE_AXIS,
                     f"`{unparse(node)[:90]}` is {'false' if ends else 'true'} as soon as x or y alone is near: "
                     f"{DISTANCE}",
                 )
 
 
-def _broken_off(loop: ast.While) -> bool:
-    return any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
-
-
+@suspicion
 def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives until one coordinate fits, where no condition asks for the other one or a distance."""
     if not called(tree) & {"succeed"}:
@@ -123,11 +141,12 @@ def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
                 other = "y" if _compared(found[0])[0] == "x" else "x"
                 yield (
                     loop.lineno,
-                    "one_axis",
+                    About.ONE_AXIS,
                     f"`{unparse(found[0])[:90]}` asks for one coordinate only, and {other} may be far off: {DISTANCE}",
                 )
 
 
+@suspicion
 def signs_are_kept(tree: ast.AST) -> Iterator[Suspect]:
     """Find differences of coordinates that are compared with their signs: each negative one is small enough."""
     if not called(tree) & {"succeed"}:
@@ -137,12 +156,13 @@ def signs_are_kept(tree: ast.AST) -> Iterator[Suspect]:
         if len(found) == 2 and len({axis for axis, _ in found}) == 2 and len({far for _, far in found}) == 1:
             yield (
                 node.lineno,
-                "one_axis",
+                About.ONE_AXIS,
                 f"`{unparse(node)[:90]}` compares differences with their signs, and every negative one is small "
                 f"enough, however far the robot is: {DISTANCE}",
             )
 
 
+@suspicion
 def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives as long as the robot is near: it is over before it begins."""
     if not called(tree) & {"succeed"}:
@@ -163,32 +183,10 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
                 ):
                     yield (
                         loop.lineno,
-                        "inverted",
+                        About.INVERTED,
                         f"`while {unparse(node)[:80]}` goes on while the robot is near, and is over at once where "
                         "it is far: > is asked for",
                     )
-
-
-def squares(tree: ast.Module) -> Iterator[Suspect]:
-    """Find `distance ** 2 < 0.15`, or `dx * dx + dy * dy < 0.15`: the square of 0.39 m is that small, too."""
-    if not called(tree) & {"succeed"}:
-        return
-    known = named_numbers(tree)
-    squared = {unparse(target) for target, value in assigned(tree) if _is_square(value)}
-    for node in walk(tree):
-        match node:
-            case ast.Compare(left=left, ops=[ast.Gt() | ast.GtE() | ast.Lt() | ast.LtE()], comparators=[limit]):
-                pass
-            case _:
-                continue
-        value = number(limit, known)
-        if value is not None and NEAREST_SQUARE < value < 1 and (_is_square(left) or unparse(left) in squared):
-            yield (
-                node.lineno,
-                "squared",
-                f"`{unparse(node)[:80]}` compares a square with a distance: the square of {value**0.5:.2f} m is "
-                f"{value:g}, so the robot counts as there {value**0.5:.2f} m away: square the limit, too",
-            )
 
 
 def _is_square(node: ast.AST) -> bool:
@@ -201,6 +199,3 @@ def _is_square(node: ast.AST) -> bool:
         case ast.BinOp(left=left, op=ast.Add(), right=right):
             return _is_square(left) and _is_square(right)
     return False
-
-
-LOOKS = (squares, one_axis_is_enough, one_axis_is_asked, signs_are_kept, inverted_loops)

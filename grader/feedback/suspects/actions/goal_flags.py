@@ -6,7 +6,6 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     calls,
@@ -16,6 +15,10 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
+
+BEFORE = ("answers",)
 
 TURNS = frozenset({"Lock", "RLock", "Semaphore", "BoundedSemaphore"})
 ENDS = frozenset({"succeed", "canceled", "abort"})
@@ -48,6 +51,38 @@ def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
             yield function
 
 
+@suspicion
+def cancellations_refused(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a cancel callback that refuses."""
+    for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
+        for node in nodes_of(function, ast.Return):
+            if node.value is not None and _rejects(node.value):
+                yield node.lineno, About.REFUSES_CANCEL, f"`{unparse(node)[:90]}` in {function.name} refuses"
+
+
+@suspicion
+def waits_for_its_turn(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a goal that waits in execute until the patrol before it has ended: for a lock, or for a flag of the node."""
+    given = [
+        each.value
+        for call, name in calls(tree)
+        if name == "ActionServer"
+        for each in [*call.keywords, *(ast.keyword("execute_callback", arg) for arg in call.args[3:4])]
+        if each.arg == "execute_callback"
+    ]
+    names = {last_name(each) for each in given}
+    locks = {_own(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in TURNS}
+    for function in (each for each in functions(tree) if each.name in names):
+        for line, what in _waits(function, locks - {""}):
+            yield (
+                line,
+                About.QUEUED,
+                f"a goal waits here for {what} until the one before it has ended; one patrol at a time means that "
+                "goal_callback returns GoalResponse.REJECT meanwhile",
+            )
+
+
+@suspicion
 def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
     """Find a flag that refuses goals and is set before other tests, which may still refuse this one."""
     for function in _judges(tree):
@@ -64,48 +99,9 @@ def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
                 if _constant(value) is True and name in tested and later:
                     yield (
                         statement.lineno,
-                        "refuses_all",
+                        About.REFUSES_ALL,
                         f"{name} is set before line {later[0]} rejects a goal, so a rejected goal leaves the server "
                         "busy, too, and nothing ends it: set the flag right before return GoalResponse.ACCEPT",
-                    )
-
-
-def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a lock that is taken in a test of a goal, before other tests that may still refuse it."""
-    for function in _judges(tree):
-        for number, statement in enumerate(function.body):
-            taken = [
-                each.func.value
-                for each in (walk(statement.test) if isinstance(statement, ast.If) else ())
-                if isinstance(each, ast.Call) and isinstance(each.func, ast.Attribute) and each.func.attr == "acquire"
-            ]
-            later = _refusals(function.body[number + 1 :])
-            released = "release" in {name for part in function.body for name in called(part)}
-            if taken and later and not released:
-                name = unparse(taken[0])
-                yield (
-                    statement.lineno,
-                    "refuses_all",
-                    f"{name} is acquired before line {later[0]} rejects a goal, and nothing releases it then, so every "
-                    "goal after a rejected one is refused, too: acquire it last, right before GoalResponse.ACCEPT",
-                )
-
-
-def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
-    """Find what is kept of a goal before it is refused, where another function uses it."""
-    for function in _judges(tree):
-        goal = function.args.args[-1].arg
-        used = {_own(n) for f in functions(tree) if f is not function for n in _reads(f)}
-        for number, statement in enumerate(function.body):
-            later = _refusals(function.body[number + 1 :])
-            for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
-                of_goal = any(isinstance(each, ast.Name) and each.id == goal for each in walk(value))
-                if later and of_goal and _own(target) in used:
-                    yield (
-                        statement.lineno,
-                        "stored_goal",
-                        f"{_own(target)} is set by every goal that comes, also by one that line {later[-1]} rejects: "
-                        "take it from goal_handle.request where a goal is executed",
                     )
 
 
@@ -126,6 +122,48 @@ def _given_to_cancel(tree: ast.AST) -> list[str]:
     ]
 
 
+@suspicion
+def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a lock that is taken in a test of a goal, before other tests that may still refuse it."""
+    for function in _judges(tree):
+        for number, statement in enumerate(function.body):
+            taken = [
+                each.func.value
+                for each in (walk(statement.test) if isinstance(statement, ast.If) else ())
+                if isinstance(each, ast.Call) and isinstance(each.func, ast.Attribute) and each.func.attr == "acquire"
+            ]
+            later = _refusals(function.body[number + 1 :])
+            released = "release" in {name for part in function.body for name in called(part)}
+            if taken and later and not released:
+                name = unparse(taken[0])
+                yield (
+                    statement.lineno,
+                    About.REFUSES_ALL,
+                    f"{name} is acquired before line {later[0]} rejects a goal, and nothing releases it then, so every "
+                    "goal after a rejected one is refused, too: acquire it last, right before GoalResponse.ACCEPT",
+                )
+
+
+@suspicion
+def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
+    """Find what is kept of a goal before it is refused, where another function uses it."""
+    for function in _judges(tree):
+        goal = function.args.args[-1].arg
+        used = {_own(n) for f in functions(tree) if f is not function for n in _reads(f)}
+        for number, statement in enumerate(function.body):
+            later = _refusals(function.body[number + 1 :])
+            for target, value in assigned(statement) if isinstance(statement, ast.Assign) else ():
+                of_goal = any(isinstance(each, ast.Name) and each.id == goal for each in walk(value))
+                if later and of_goal and _own(target) in used:
+                    yield (
+                        statement.lineno,
+                        About.STORED_GOAL,
+                        f"{_own(target)} is set by every goal that comes, also by one that line {later[-1]} rejects: "
+                        "take it from goal_handle.request where a goal is executed",
+                    )
+
+
+@suspicion
 def cancelled_for_ever(tree: ast.AST) -> Iterator[Suspect]:
     """Find a flag that the cancel callback sets and that nothing sets back."""
     for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
@@ -137,13 +175,14 @@ def cancelled_for_ever(tree: ast.AST) -> Iterator[Suspect]:
             if name and _constant(value) is True and asked and not back:
                 yield (
                     target.lineno,
-                    "anew",
+                    About.ANEW,
                     f"{name} becomes True with the first cancellation and stays so, so every later goal counts as "
                     "cancelled: ask goal_handle.is_cancel_requested, which each goal has for itself, or set it to "
                     "False where a goal is executed",
                 )
 
 
+@suspicion
 def events_never_cleared(tree: ast.AST) -> Iterator[Suspect]:
     """Find an Event of the node that a goal waits for, and that nothing clears for the next goal."""
     if "ActionServer" not in called(tree):
@@ -162,12 +201,13 @@ def events_never_cleared(tree: ast.AST) -> Iterator[Suspect]:
         if where == ["__init__"] and {"wait", "set"} <= does.keys() and "clear" not in does:
             yield (
                 does["wait"],
-                "anew",
+                About.ANEW,
                 f"{name} stays set from the first goal on, so wait() returns at once for every later goal: call "
                 f"{name}.clear() where a goal is executed",
             )
 
 
+@suspicion
 def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that asks is_active, in a file that never asks whether a goal is to be cancelled."""
     asked = [each for each in nodes_of(tree, ast.Attribute)]
@@ -177,12 +217,13 @@ def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
         if each.attr == "is_active":
             yield (
                 each.lineno,
-                "cancel",
+                About.CANCEL,
                 f"{unparse(each)} stays True until the goal is ended here, also while somebody waits for it to be "
                 f"cancelled: ask {unparse(each.value)}.is_cancel_requested",
             )
 
 
+@suspicion
 def aborts_at_the_end(tree: ast.AST) -> Iterator[Suspect]:
     """Find abort() as the last end of a goal, in a function that never calls succeed()."""
     for function in functions(tree):
@@ -194,44 +235,10 @@ def aborts_at_the_end(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(call, ast.Call) and last_name(call.func) == "abort":
                 yield (
                     call.lineno,
-                    "ended",
+                    About.ENDED,
                     f"{unparse(call)} says that the goal failed; "
                     f"{unparse(call.func).rpartition('.')[0]}.succeed() ends one that was done",
                 )
-
-
-def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
-    """Find an action server in a file without publish_feedback()."""
-    if any(each.attr == "publish_feedback" for each in nodes_of(tree, ast.Attribute)):
-        return
-    for call, name in calls(tree):
-        if name == "ActionServer":
-            yield (
-                call.lineno,
-                "no_feedback",
-                "the execute callback of this action server never calls publish_feedback()",
-            )
-
-
-def waits_for_its_turn(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a goal that waits in execute until the patrol before it has ended: for a lock, or for a flag of the node."""
-    given = [
-        each.value
-        for call, name in calls(tree)
-        if name == "ActionServer"
-        for each in [*call.keywords, *(ast.keyword("execute_callback", arg) for arg in call.args[3:4])]
-        if each.arg == "execute_callback"
-    ]
-    names = {last_name(each) for each in given}
-    locks = {_own(t) for t, v in assigned(tree) if isinstance(v, ast.Call) and last_name(v.func) in TURNS}
-    for function in (each for each in functions(tree) if each.name in names):
-        for line, what in _waits(function, locks - {""}):
-            yield (
-                line,
-                "queued",
-                f"a goal waits here for {what} until the one before it has ended; one patrol at a time means that "
-                "goal_callback returns GoalResponse.REJECT meanwhile",
-            )
 
 
 def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, str]]:
@@ -254,23 +261,15 @@ def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, st
                 yield statement.lineno, flag
 
 
-def cancellations_refused(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a cancel callback that refuses."""
-    for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
-        for node in nodes_of(function, ast.Return):
-            if node.value is not None and _rejects(node.value):
-                yield node.lineno, "refuses_cancel", f"`{unparse(node)[:90]}` in {function.name} refuses"
-
-
-LOOKS = (
-    cancellations_refused,
-    waits_for_its_turn,
-    set_before_the_answer,
-    locked_before_the_answer,
-    kept_of_refused_goals,
-    cancelled_for_ever,
-    events_never_cleared,
-    active_is_not_cancelled,
-    aborts_at_the_end,
-    feedback_never_sent,
-)
+@suspicion
+def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an action server in a file without publish_feedback()."""
+    if any(each.attr == "publish_feedback" for each in nodes_of(tree, ast.Attribute)):
+        return
+    for call, name in calls(tree):
+        if name == "ActionServer":
+            yield (
+                call.lineno,
+                About.NO_FEEDBACK,
+                "the execute callback of this action server never calls publish_feedback()",
+            )

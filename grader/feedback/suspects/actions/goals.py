@@ -5,16 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    called,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 # Comparisons of a length with a number that tell an empty list from all others.
 TELLS_EMPTY = frozenset({(ast.Eq, 0), (ast.NotEq, 0), (ast.Gt, 0), (ast.LtE, 0), (ast.Lt, 1), (ast.GtE, 1)})
@@ -29,6 +22,7 @@ def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
             yield function
 
 
+@suspicion
 def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
     """Find a length that is compared with another number than the one that tells an empty list."""
     for function in _judges(tree):
@@ -43,12 +37,13 @@ def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
                 what = unparse(node.left.args[0]).rpartition(".")[2] if node.left.args else "the list"
                 yield (
                     node.lineno,
-                    "goal_length",
+                    About.GOAL_LENGTH,
                     f"`{unparse(node)}` refuses goals by the number of their {what}, and not only empty ones: "
                     "a goal with one is a goal, too",
                 )
 
 
+@suspicion
 def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
     """Find an answer to a goal by which a speed that is the limit itself is too much."""
     for function in _judges(tree):
@@ -61,7 +56,7 @@ def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
                 if _excludes(compare, refuses != turned):
                     yield (
                         compare.lineno,
-                        "goal_limit",
+                        About.GOAL_LIMIT,
                         f"by `{unparse(compare)}`, a speed that is max_speed itself is refused: only one above it "
                         "is too fast",
                     )
@@ -97,6 +92,7 @@ def _is_speed(node: ast.expr) -> bool:
     return isinstance(node, ast.Attribute) and node.attr == "speed"
 
 
+@suspicion
 def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find abort() where a cancellation was asked for."""
     for test in nodes_of(tree, ast.If):
@@ -106,7 +102,7 @@ def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(call.func, ast.Attribute) and call.func.attr == "abort":
                 yield (
                     call.lineno,
-                    "cancel",
+                    About.CANCEL,
                     f"{unparse(call)} ends the goal as ABORTED; {unparse(call.func.value)}.canceled() belongs here",
                 )
 
@@ -117,6 +113,7 @@ def _fields(tree: ast.AST) -> list[tuple[ast.expr, str | None]]:
     return given + [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
 
 
+@suspicion
 def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
     """Find a distance of a feedback that is made a whole number, where the field is a float."""
     for value, field in _fields(tree):
@@ -124,12 +121,13 @@ def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
         if field == "distance" and isinstance(value, ast.Call) and len(value.args) == 1 and name in ("round", "int"):
             yield (
                 value.lineno,
-                "feedback",
+                About.FEEDBACK,
                 f"{unparse(value)} is a whole number, and the field distance is a float64, to which rclpy does "
                 "not convert it: the number itself, or float(...), can be sent",
             )
 
 
+@suspicion
 def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find an index of a feedback that is a quotient or is made a float, where the field is an int32."""
     for value, field in _fields(tree):
@@ -138,14 +136,14 @@ def broken_indices(tree: ast.AST) -> Iterator[Suspect]:
         if field in ("waypoint", "visited") and broken:
             yield (
                 value.lineno,
-                "feedback" if field == "waypoint" else "unsent_result",
+                About.FEEDBACK if field == "waypoint" else About.UNSENT_RESULT,
                 f"{unparse(value)} is a float, and the field {field} is an int32, which rclpy cannot send it as: "
                 "give it a whole number",
             )
         elif field == "waypoint" and isinstance(value, ast.Name) and _has_coordinates(tree, value.id):
             yield (
                 value.lineno,
-                "feedback",
+                About.FEEDBACK,
                 f"{value.id} is a point, and the field waypoint of the feedback is an int32: the index of the waypoint",
             )
 
@@ -171,6 +169,7 @@ def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
             yield function, {name: value for name, value in once.items() if name.startswith("self.")}
 
 
+@suspicion
 def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
     """Find a list of the node that every goal makes longer, and that nothing empties."""
     for function, once in _kept(tree):
@@ -186,12 +185,13 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
             if grows and not deleted and not any(method in EMPTIES for method, _ in uses):
                 yield (
                     grows[0],
-                    "anew",
+                    About.ANEW,
                     f"{name} keeps what earlier goals have put into it, and this line adds to it: make a new one where "
                     "a goal is executed",
                 )
 
 
+@suspicion
 def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find the index of a waypoint that goes on from goal to goal."""
     for function, once in _kept(tree):
@@ -201,18 +201,7 @@ def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
             if once.get(name, "").lstrip("-").isdigit() and indexes:
                 yield (
                     node.lineno,
-                    "anew",
+                    About.ANEW,
                     f"{name} is {once[name]} for the first goal only, and goes on from there for the next one: set it "
                     f"to {once[name]} where a goal is executed",
                 )
-
-
-LOOKS = (
-    short_lists_refused,
-    limits_excluded,
-    aborted_when_cancelled,
-    whole_distances,
-    broken_indices,
-    lists_that_grow,
-    counters_that_go_on,
-)

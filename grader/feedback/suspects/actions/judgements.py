@@ -6,16 +6,9 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    calls,
-    functions,
-    is_none,
-    last_name,
-    nodes_of,
-    unparse,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, is_none, last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 LIMIT = "max_speed"
 
@@ -31,6 +24,7 @@ def _attributes(tree: ast.AST) -> tuple[ast.Attribute, ...]:
     return nodes_of(tree, ast.Attribute)
 
 
+@suspicion
 def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
     """Find a goal callback that knows no answer but ACCEPT."""
     for call, name in calls(tree):
@@ -40,9 +34,10 @@ def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
         for function in (each for each in _judges(tree) if each.name == last_name(given)):
             answers = {each.attr for each in _attributes(function)}
             if "ACCEPT" in answers and "REJECT" not in answers:
-                yield function.lineno, "accepts_all", f"{function.name} knows no answer but GoalResponse.ACCEPT"
+                yield function.lineno, About.ACCEPTS_ALL, f"{function.name} knows no answer but GoalResponse.ACCEPT"
 
 
+@suspicion
 def lists_are_never_none(tree: ast.AST) -> Iterator[Suspect]:
     """Find a goal without waypoints that is looked for by None."""
     for function in _judges(tree):
@@ -51,12 +46,13 @@ def lists_are_never_none(tree: ast.AST) -> Iterator[Suspect]:
             if last_name(node.left) == "waypoints" and is_none(other):
                 yield (
                     node.lineno,
-                    "accepts_empty",
+                    About.ACCEPTS_EMPTY,
                     f"waypoints of a goal is a list, never None, so `{unparse(node)}` is always the same: a goal "
                     f"without waypoints has an empty list, `len({unparse(node.left)}) == 0`",
                 )
 
 
+@suspicion
 def signs_taken_away(tree: ast.AST) -> Iterator[Suspect]:
     """Find abs(speed) in an answer to a goal."""
     for function in _judges(tree):
@@ -64,11 +60,12 @@ def signs_taken_away(tree: ast.AST) -> Iterator[Suspect]:
             if name in ("abs", "fabs") and call.args and last_name(call.args[0]) == "speed":
                 yield (
                     call.lineno,
-                    "accepts_backwards",
+                    About.ACCEPTS_BACKWARDS,
                     f"{unparse(call)} has no sign any more, so a negative speed counts as a positive one",
                 )
 
 
+@suspicion
 def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
     """Find a speed of a goal that is compared with a constant, and a parameter for its limit of another name."""
     declared = [
@@ -78,7 +75,7 @@ def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
     ]
     if declared and any(_judges(tree)) and LIMIT not in (name for _, name in declared):
         line, name = declared[0]
-        yield line, "other_limit", f"the node has a parameter `{name}`, and the task calls the limit `{LIMIT}`"
+        yield line, About.OTHER_LIMIT, f"the node has a parameter `{name}`, and the task calls the limit `{LIMIT}`"
     known = named_numbers(tree)
     for function in _judges(tree):
         own = {unparse(target): value for target, value in assigned(tree)}
@@ -91,10 +88,7 @@ def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
                 if value is not None and value > 0:
                     yield (
                         node.lineno,
-                        "other_limit",
+                        About.OTHER_LIMIT,
                         f"`{unparse(node)[:70]}` takes the constant {value:g} for the limit: it is the parameter, "
                         f"self.get_parameter('{LIMIT}').value",
                     )
-
-
-LOOKS = (never_refuses, lists_are_never_none, signs_taken_away, limits_that_are_no_parameter)

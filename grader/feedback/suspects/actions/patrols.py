@@ -8,8 +8,11 @@ from collections.abc import Iterator
 from typing import TypeGuard
 
 from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
-Suspect = tuple[int, str, str]
+BEFORE = ("followers", "goal_flags", "old_values")
+
 ASKS = "is_cancel_requested"
 ANGLE = re.compile(r"turn|err|angle|diff|delta|alpha|beta")
 STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round of a loop that drives does
@@ -40,6 +43,7 @@ def _asked_by(node: ast.AST) -> TypeGuard[ast.If]:
     return isinstance(node, ast.If) and bool(_asks(node.test))
 
 
+@suspicion
 def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if index == 0 and goal_handle.is_cancel_requested`."""
     for test in (each for each in walk(tree) if _asked_by(each)):
@@ -48,9 +52,30 @@ def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
         others = " and ".join(unparse(each) for each in test.test.values if not _asks(each))
         leaves = any(isinstance(part, ast.Return | ast.Break) for part in test.body)
         if others and (leaves or "canceled" in called(test)):
-            yield test.lineno, "cancel", f"a cancellation counts only if `{others[:80]}` is true, too"
+            yield test.lineno, About.CANCEL, f"a cancellation counts only if `{others[:80]}` is true, too"
 
 
+@suspicion
+def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a program that reads the velocity of the odometry, and nowhere its position."""
+    named = {each.attr: each for each in nodes_of(tree, ast.Attribute)}
+    if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
+        return
+    whole = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith(".twist.twist")}
+    for node in nodes_of(tree, ast.Attribute):
+        if isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
+            owner = unparse(node.value)
+            if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:
+                yield (
+                    node.lineno,
+                    About.NO_PLACE,
+                    f"{unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
+                    "pose.pose.position of the odometry",
+                )
+                return
+
+
+@suspicion
 def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives without asking for a cancellation, in a file that asks for it elsewhere."""
     lines, askers = _asks(tree), _askers(tree)
@@ -69,9 +94,10 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
         around = any(isinstance(n, Loop) and loop in walk(n) and lines[0] in _asks(n) for n in walk(tree))
         where = "for each waypoint, " if around else ""
         when = f"line {lines[0]} asks it {'once ' if around else ''}{where}outside of"
-        yield loop.lineno, "cancel", f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
+        yield loop.lineno, About.CANCEL, f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
 
 
+@suspicion
 def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
     """Find a cancelled goal that breaks out of the inner of two loops, where nothing ends the outer one."""
     for outer in (n for n in walk(tree) if isinstance(n, Loop)):
@@ -85,12 +111,18 @@ def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
             if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
                 yield (
                     left[0].lineno,
-                    "cancel",
+                    About.CANCEL,
                     f"this break leaves the inner loop only, and the loop in line {outer.lineno} goes on with the next "
                     "waypoint: return from execute here, after canceled() and a Twist of zeros",
                 )
 
 
+def _lines_of_init(tree: ast.AST) -> set[int]:
+    functions = (n for n in nodes_of(tree, ast.FunctionDef) if n.name == "__init__")
+    return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
+
+
+@suspicion
 def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
     if not called(tree) & {"succeed"}:
@@ -113,7 +145,7 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
             if made_by.rpartition(".")[2].startswith("Result("):
                 yield (
                     own[0].lineno,
-                    "result",
+                    About.RESULT,
                     f"{whole} is made once for all goals, and line {line} counts {field} on: {made_by} belongs in "
                     "the function that executes a goal",
                 )
@@ -121,16 +153,12 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
         if whole == "self" and len(begun) == 1 and begun[0].lineno in first and name in handed:
             yield (
                 begun[0].lineno,
-                "result",
+                About.RESULT,
                 f"{name} is set once for all goals, and line {line} counts it on: reset it where a goal is executed",
             )
 
 
-def _lines_of_init(tree: ast.AST) -> set[int]:
-    functions = (n for n in nodes_of(tree, ast.FunctionDef) if n.name == "__init__")
-    return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
-
-
+@suspicion
 def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
     for node in nodes_of(tree, ast.If):
@@ -146,12 +174,13 @@ def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
         if drives and angle and isinstance(node.test.ops[0], ast.Lt | ast.LtE) and not limit.startswith("-"):
             yield (
                 node.lineno,
-                "one_side",
+                About.ONE_SIDE,
                 f"{left} < {limit} is true for every negative {left}, too, however far to the right: compare "
                 f"abs({left})",
             )
 
 
+@suspicion
 def summed_places(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is a sum of velocities, where the odometry says the place itself."""
     for node in nodes_of(tree, ast.AugAssign):
@@ -160,37 +189,7 @@ def summed_places(tree: ast.AST) -> Iterator[Suspect]:
         if ".twist.linear" in unparse(node.value) and unparse(node.target).startswith("self."):
             yield (
                 node.lineno,
-                "summed_place",
+                About.SUMMED_PLACE,
                 f"{unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
                 "with it; the place in the frame odom is pose.pose.position of the message",
             )
-
-
-def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a program that reads the velocity of the odometry, and nowhere its position."""
-    named = {each.attr: each for each in nodes_of(tree, ast.Attribute)}
-    if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
-        return
-    whole = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith(".twist.twist")}
-    for node in nodes_of(tree, ast.Attribute):
-        if isinstance(node.ctx, ast.Load) and node.attr in ("x", "y"):
-            owner = unparse(node.value)
-            if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:
-                yield (
-                    node.lineno,
-                    "no_place",
-                    f"{unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
-                    "pose.pose.position of the odometry",
-                )
-                return
-
-
-LOOKS = (
-    asked_under_a_condition,
-    velocities_for_places,
-    loops_that_do_not_ask,
-    breaks_of_the_inner_loop,
-    counts_that_go_on,
-    one_side_of_an_angle,
-    summed_places,
-)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 
 def _turns(block: list[ast.stmt]) -> bool:
@@ -32,6 +34,7 @@ def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
             yield name, value
 
 
+@suspicion
 def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
     """Find a phase of turning that begins once, before the loop, and that the loop only leaves."""
     for name, value in _phases(tree):
@@ -50,11 +53,8 @@ def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(end.value, ast.Constant):
                 yield (
                     end.lineno,
-                    "phase",
+                    About.PHASE,
                     f"{unparse(end)} ends the turning for good: nothing sets it back to "
                     f"{unparse(before.value)} for the next waypoint",
                 )
                 return
-
-
-LOOKS = (phases_that_stay_over,)

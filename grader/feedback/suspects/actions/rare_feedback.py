@@ -6,7 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 Loop = ast.While | ast.For | ast.AsyncFor
 SENDS = "publish_feedback"
@@ -36,6 +38,7 @@ def _drivers(tree: ast.AST, node: ast.AST) -> Iterator[Loop]:
                 yield loop
 
 
+@suspicion
 def outside_of_the_loop(tree: ast.AST) -> Iterator[Suspect]:
     """Find feedback beside the loop that drives, where no loop that drives sends any."""
     if SENDS not in called(tree):
@@ -49,11 +52,12 @@ def outside_of_the_loop(tree: ast.AST) -> Iterator[Suspect]:
             if name in sending:
                 yield (
                     call.lineno,
-                    "rare_feedback",
+                    About.RARE_FEEDBACK,
                     f"{name}() stands outside of the loop of line {drivers[0].lineno}, which drives the robot",
                 )
 
 
+@suspicion
 def under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
     """Find the only call that sends feedback under a condition."""
     sent = [call for call, name in calls(tree) if name == SENDS]
@@ -63,7 +67,4 @@ def under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
         node for node in nodes_of(tree, ast.If) if any(each is sent[0] for part in node.body for each in walk(part))
     ]
     if around and not CLOCK.search(unparse(around[-1].test)):  # the innermost one is walked to last
-        yield sent[0].lineno, "rare_feedback", f"{SENDS}() is called only if `{unparse(around[-1].test)[:80]}`"
-
-
-LOOKS = (outside_of_the_loop, under_a_condition)
+        yield sent[0].lineno, About.RARE_FEEDBACK, f"{SENDS}() is called only if `{unparse(around[-1].test)[:80]}`"

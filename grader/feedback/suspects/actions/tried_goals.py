@@ -11,17 +11,19 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gz_course.grader.feedback.facts.syntax import Suspect, functions, unparse
+from gz_course.grader.feedback.facts.syntax import functions, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 LIMIT = 0.5  # [m/s] max_speed, if nobody sets it
 POINTS = ("a", "b")
 # What is asked, its waypoints and speed [m/s], the right answer, what a suspect is about, and its words.
 GOALS = (
-    (POINTS, 0.4, True, "refuses_all", "a goal with two waypoints and 0.4 m/s"),
-    ((), 0.4, False, "accepts_empty", "a goal without waypoints"),
-    (POINTS, 0.8, False, "other_limit", "0.8 m/s where max_speed is 0.5"),
-    (POINTS, -0.2, False, "accepts_backwards", "a speed of -0.2 m/s"),
-    (POINTS, 0.0, False, "accepts_standing", "a speed of 0"),
+    (POINTS, 0.4, True, About.REFUSES_ALL, "a goal with two waypoints and 0.4 m/s"),
+    ((), 0.4, False, About.ACCEPTS_EMPTY, "a goal without waypoints"),
+    (POINTS, 0.8, False, About.OTHER_LIMIT, "0.8 m/s where max_speed is 0.5"),
+    (POINTS, -0.2, False, About.ACCEPTS_BACKWARDS, "a speed of -0.2 m/s"),
+    (POINTS, 0.0, False, About.ACCEPTS_STANDING, "a speed of 0"),
 )
 COMPARES: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge, ast.Eq: operator.eq,
@@ -127,6 +129,7 @@ class _Trial:
         return ""
 
 
+@suspicion
 def wrong_answers(tree: ast.AST) -> Iterator[Suspect]:
     """Find a goal callback that refuses a goal that can be done, or accepts one that cannot, and the test for it."""
     first = next((each for each in functions(tree) if each.name == "__init__"), None)
@@ -156,6 +159,3 @@ def wrong_answers(tree: ast.AST) -> Iterator[Suspect]:
                     f"`{unparse(test)[:90]}` is {held} for {words}, so {function.name} "
                     f"{'rejects' if right else 'accepts'} it",
                 )
-
-
-LOOKS = (wrong_answers,)

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     functions,
@@ -18,6 +17,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 FIELD, CANCELLED = "visited", "is_cancel_requested"
 Loop = ast.While | ast.For
@@ -50,6 +51,7 @@ def _takes_time(statement: ast.stmt, drivers: set[str]) -> bool:
     return loops or bool(called(statement) & drivers)
 
 
+@suspicion
 def counted_on_departure(tree: ast.AST) -> Iterator[Suspect]:
     """Find a count that goes up above what drives to the waypoint, in the loop over the waypoints."""
     names, drivers = _counts(tree), _drivers(tree)
@@ -68,12 +70,13 @@ def counted_on_departure(tree: ast.AST) -> Iterator[Suspect]:
                 if grows and driven is not None:
                     yield (
                         statement.lineno,
-                        "counted",
+                        About.COUNTED,
                         f"`{unparse(statement)}` counts the waypoint before line {driven.lineno} drives to it: it "
                         "belongs below that, where the robot has arrived",
                     )
 
 
+@suspicion
 def counted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     """Find a number of visited waypoints that is made where a goal is cancelled, and is no count."""
     for test in nodes_of(tree, ast.If):
@@ -82,11 +85,15 @@ def counted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
         for value in (each for part in test.body for each in _given(part)):
             text = unparse(value)
             if isinstance(value, ast.Call) and last_name(value.func) == "len":
-                yield value.lineno, "counted", f"`{text}` is the number of all waypoints of the goal, visited or not"
+                yield (
+                    value.lineno,
+                    About.COUNTED,
+                    f"`{text}` is the number of all waypoints of the goal, visited or not",
+                )
             elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add) and _is_one(value.right):
                 yield (
                     value.lineno,
-                    "counted",
+                    About.COUNTED,
                     f"`{text}` counts the waypoint to which the robot is still driving; `{unparse(value.left)}` "
                     "have been visited",
                 )
@@ -96,6 +103,7 @@ def _is_one(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value == 1
 
 
+@suspicion
 def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
     """Find an inner loop that a cancellation ends, where the loop over the waypoints goes on and counts."""
     names = _counts(tree)
@@ -115,7 +123,7 @@ def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
                 then = "" if leaves else f", and the loop of line {loop.lineno} goes on to the next one"
                 yield (
                     ended.line,
-                    "counted",
+                    About.COUNTED,
                     f"{ended.what} when the goal is cancelled; then line {statement.lineno}, "
                     f"`{unparse(statement)}`, counts the waypoint all the same{then}: ask for is_cancel_requested "
                     "before that line, too",
@@ -149,6 +157,3 @@ def _ended_by_a_cancellation(statement: ast.stmt, own: Mapping[str, ast.Function
             flags = frozenset(last_name(target) for part in test.body for target, _ in assigned(part))
             return _End(test.body[-1].lineno, "this break leaves only the inner loop", flags)
     return None
-
-
-LOOKS = (counted_on_departure, counted_when_cancelled, counted_after_a_break)

@@ -5,16 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    called,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 POINTS = ("waypoints", "points", "goals", "targets", "route", "path", "todo")
 
@@ -26,19 +19,27 @@ def _drives(tree: ast.AST) -> Iterator[ast.FunctionDef]:
             yield function
 
 
-def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a return, or a break, that every round of a loop over waypoints comes to."""
+@suspicion
+def flags_never_set_back(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `while not self.arrived` in a loop over waypoints, where the flag becomes True and never False again."""
+    values: dict[str, set[object]] = {}
+    for function in functions(tree):
+        for target, value in assigned(function) if function.name != "__init__" else ():
+            constant = value.value if isinstance(value, ast.Constant) else None
+            values.setdefault(unparse(target), set()).add(constant)
     for function in _drives(tree):
         for loop in nodes_of(function, ast.For):
-            for statement in loop.body:
-                if isinstance(statement, ast.Return | ast.Break):
-                    what = "return" if isinstance(statement, ast.Return) else "break"
-                    yield (
-                        statement.lineno,
-                        "left_early",
-                        f"this {what} ends the loop of line {loop.lineno} in its first iteration: it belongs after the "
-                        "loop",
-                    )
+            for inner in (each for part in loop.body for each in nodes_of(part, ast.While)):
+                for node in walk(inner.test):
+                    match node:
+                        case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name(id="self")) as flag):
+                            if values.get(name := unparse(flag)) == {True}:
+                                yield (
+                                    inner.lineno,
+                                    About.LEFT_EARLY,
+                                    f"{name} stays True from the first waypoint on, so `{unparse(node)}` is False "
+                                    f"at once for the next: set {name} to False before this loop",
+                                )
 
 
 def _number(node: ast.AST | None) -> int:
@@ -62,20 +63,20 @@ def _one_less(node: ast.AST | None) -> bool:
     return False
 
 
-def waypoints_left_out(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a loop over `waypoints[1:]`, `range(len(waypoints) - 1)` and the like."""
+@suspicion
+def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a return, or a break, that every round of a loop over waypoints comes to."""
     for function in _drives(tree):
-        for node in walk(function):
-            which, part = "", node
-            match node:
-                case ast.For(iter=part) | ast.comprehension(iter=part):
-                    which = _left_out(part)
-                case ast.While(test=ast.Compare(ops=[ast.Lt() | ast.NotEq()], comparators=[last]) as part):
-                    which = "last" if _one_less(last) else ""
-            if which:
-                line = getattr(part, "lineno", function.lineno)
-                yield line, "left_out", f"`{unparse(part)[:60]}` leaves out the {which} waypoint"
-        yield from _begins_at_one(function)
+        for loop in nodes_of(function, ast.For):
+            for statement in loop.body:
+                if isinstance(statement, ast.Return | ast.Break):
+                    what = "return" if isinstance(statement, ast.Return) else "break"
+                    yield (
+                        statement.lineno,
+                        About.LEFT_EARLY,
+                        f"this {what} ends the loop of line {loop.lineno} in its first iteration: it belongs after the "
+                        "loop",
+                    )
 
 
 def _left_out(given: ast.AST) -> str:
@@ -113,31 +114,23 @@ def _begins_at_one(function: ast.FunctionDef) -> Iterator[Suspect]:
             if name in counts and _number(value) == 1 and indexes:
                 yield (
                     statement.lineno,
-                    "left_out",
+                    About.LEFT_OUT,
                     f"`{unparse(statement)}` leaves out the first waypoint, whose index is 0",
                 )
 
 
-def flags_never_set_back(tree: ast.AST) -> Iterator[Suspect]:
-    """Find `while not self.arrived` in a loop over waypoints, where the flag becomes True and never False again."""
-    values: dict[str, set[object]] = {}
-    for function in functions(tree):
-        for target, value in assigned(function) if function.name != "__init__" else ():
-            constant = value.value if isinstance(value, ast.Constant) else None
-            values.setdefault(unparse(target), set()).add(constant)
+@suspicion
+def waypoints_left_out(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop over `waypoints[1:]`, `range(len(waypoints) - 1)` and the like."""
     for function in _drives(tree):
-        for loop in nodes_of(function, ast.For):
-            for inner in (each for part in loop.body for each in nodes_of(part, ast.While)):
-                for node in walk(inner.test):
-                    match node:
-                        case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name(id="self")) as flag):
-                            if values.get(name := unparse(flag)) == {True}:
-                                yield (
-                                    inner.lineno,
-                                    "left_early",
-                                    f"{name} stays True from the first waypoint on, so `{unparse(node)}` is False "
-                                    f"at once for the next: set {name} to False before this loop",
-                                )
-
-
-LOOKS = (flags_never_set_back, left_in_the_first_round, waypoints_left_out)
+        for node in walk(function):
+            which, part = "", node
+            match node:
+                case ast.For(iter=part) | ast.comprehension(iter=part):
+                    which = _left_out(part)
+                case ast.While(test=ast.Compare(ops=[ast.Lt() | ast.NotEq()], comparators=[last]) as part):
+                    which = "last" if _one_less(last) else ""
+            if which:
+                line = getattr(part, "lineno", function.lineno)
+                yield line, About.LEFT_OUT, f"`{unparse(part)[:60]}` leaves out the {which} waypoint"
+        yield from _begins_at_one(function)

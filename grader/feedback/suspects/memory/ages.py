@@ -10,7 +10,9 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, calls, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 OLDER, YOUNGER = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 LEAVES = ast.Return | ast.Continue
@@ -20,6 +22,7 @@ SOON = 0.15  # [s] a limit that the messages of a sensor with ten a second pass 
 NANO = 1e9
 
 
+@suspicion
 def turned(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if age > LIMIT:` before what uses the message, and `if age < LIMIT: return`."""
     values = set_to(tree)
@@ -32,12 +35,13 @@ def turned(tree: ast.AST) -> Iterator[Suspect]:
             if (asked == holds) == uses:
                 yield (
                     test.lineno,
-                    "age",
+                    About.AGE,
                     f"`{unparse(node.test)[:60]}` lets only old messages through, and drops the fresh ones, whose "
                     "age is nearly 0: the comparison is the wrong way round",
                 )
 
 
+@suspicion
 def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
     """Find a limit of the age that is never passed, and a branch for old messages that does not drop them."""
     values, names = set_to(tree), named_numbers(tree)
@@ -51,13 +55,13 @@ def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
                 said = (
                     f"the limit {limit} in `{unparse(node.test)[:60]}` is so small that nearly every message is too old"
                 )
-                yield test.lineno, "young_age", said
+                yield test.lineno, About.YOUNG_AGE, said
             elif limit:
                 said = f"the limit {limit} in `{unparse(node.test)[:60]}` is so large that no message is too old"
-                yield test.lineno, "any_age", said
+                yield test.lineno, About.ANY_AGE, said
             elif asked == holds and not node.orelse and _says(node.body):
                 said = f"`{unparse(node.test)[:60]}` only reports an old message; without return, it is used"
-                yield test.lineno, "any_age", said
+                yield test.lineno, About.ANY_AGE, said
 
 
 def _says(body: list[ast.stmt]) -> bool:
@@ -155,6 +159,3 @@ def _acts(body: list[ast.stmt]) -> bool:
             if name == "lookup_transform" or (name == "publish" and not new):
                 return True
     return False
-
-
-LOOKS = (turned, of_any_age)

@@ -5,9 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import called, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 
+@suspicion
 def aliases(tree: ast.AST) -> Iterator[Suspect]:
     """Find `grid = self.map` followed by `grid[...] = ...` in a function that publishes no map."""
     for function in functions(tree):
@@ -19,7 +22,7 @@ def aliases(tree: ast.AST) -> Iterator[Suspect]:
                 for changed in _changes(function, target.id, node.lineno):
                     yield (
                         changed.lineno,
-                        "alias",
+                        About.ALIAS,
                         f"{unparse(changed)[:70]} changes {unparse(value)} itself, because {target.id} = "
                         f"{unparse(value)} in line {node.lineno} makes no copy: {unparse(value)}.copy()",
                     )
@@ -38,6 +41,3 @@ def _changes(function: ast.FunctionDef, name: str, line: int) -> Iterator[ast.st
         part = isinstance(target, ast.Subscript) and unparse(target.value) == name
         if part or (isinstance(node, ast.AugAssign) and unparse(target) == name and bool(called(node.value))):
             yield node
-
-
-LOOKS = (aliases,)

@@ -6,11 +6,14 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import calls, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 FEWEST = 2
 
 
+@suspicion
 def every_nth_call(tree: ast.Module) -> Iterator[Suspect]:
     """Find `if self.scans % 10 == 0:`, and `if self.scans >= 10:` that sets the counter to 0, of a counter of calls."""
     numbers = named_numbers(tree)
@@ -36,7 +39,7 @@ def every_nth_call(tree: ast.Module) -> Iterator[Suspect]:
             if counted and times is not None and times >= FEWEST and _publishes(function, tree):
                 yield (
                     node.lineno,
-                    "every",
+                    About.EVERY,
                     f"{unparse(node.test)[:60]} lets only one in {times:g} calls of {function.name} publish",
                 )
 
@@ -45,6 +48,3 @@ def _publishes(function: ast.FunctionDef, tree: ast.Module) -> bool:
     """Return whether a function publishes, itself or through a function that it calls."""
     speak = {each.name for each in functions(tree) if any(name == "publish" for _, name in calls(each))}
     return any(name == "publish" or name in speak for _, name in calls(function))
-
-
-LOOKS = (every_nth_call,)

@@ -5,9 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, functions, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 
+@suspicion
 def for_ever(tree: ast.Module) -> Iterator[Suspect]:
     """Find a flag that chooses angular.z, is set to True in a callback of scans, and never to False again."""
     if ".ranges" not in unparse(tree):
@@ -23,7 +26,7 @@ def for_ever(tree: ast.Module) -> Iterator[Suspect]:
         if name.startswith("self.") and name in asked and ever and len(values) > len(later):
             yield (
                 later[0][0].lineno,
-                "flag for ever",
+                About.FLAG_FOR_EVER,
                 f"{name} = True stays so for ever: set it back to False when what it is for is over",
             )
 
@@ -37,6 +40,3 @@ def _choosing(tree: ast.AST) -> Iterator[ast.expr]:
 
 def _sets_the_rate(node: ast.If) -> bool:
     return any(unparse(target).endswith("angular.z") for target, _ in assigned(node))
-
-
-LOOKS = (for_ever,)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, last_name, unparse, walk
+from gz_course.grader.feedback.facts.syntax import called, last_name, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 ANY_ERROR = ("", "Exception", "BaseException", "TypeError", "AttributeError", "NameError", "ValueError", "IndexError")
 SAYING = frozenset({"error", "warning", "warn", "fatal", "info", "print", "print_exc", "exception"})
@@ -13,6 +15,7 @@ LOOPS = frozenset({"spin", "spin_once", "shutdown"})
 LOOKUPS = frozenset({"lookup_transform", "transform", "wait_for_transform"})
 
 
+@suspicion
 def hidden(tree: ast.AST) -> Iterator[Suspect]:
     """Find a handler that goes on after any error, or after one of the programmer's, and says nothing of it."""
     for node in walk(tree):
@@ -28,7 +31,4 @@ def hidden(tree: ast.AST) -> Iterator[Suspect]:
                 continue
             way = "take it away" if not inside & LOOKUPS else "catch only what you expect, TransformException"
             said = f"{f'except {kind}'.strip()}: hides the errors of lines {lines}; {way}, and Python names the error"
-            yield handler.lineno, "hidden", said
-
-
-LOOKS = (hidden,)
+            yield handler.lineno, About.HIDDEN, said

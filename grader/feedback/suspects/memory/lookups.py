@@ -5,9 +5,12 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, unparse
+from gz_course.grader.feedback.facts.syntax import assigned, calls, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 
+@suspicion
 def exchanged(tree: ast.AST) -> Iterator[Suspect]:
     """Find a lookup whose target is the frame of a message, and whose source is not."""
     frames = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith("header.frame_id")}
@@ -22,10 +25,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
         if of_a_message == [True, False]:
             yield (
                 call.lineno,
-                "exchanged_frames",
+                About.EXCHANGED_FRAMES,
                 f"lookup_transform({target}, {source}, ...): the frame into which points are taken comes first, that "
                 "of the message second; here they are exchanged, which gives the inverse",
             )
-
-
-LOOKS = (exchanged,)

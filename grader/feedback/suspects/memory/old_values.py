@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 # Parts of names that keep a first value on purpose.
 FIRST = ("start", "first", "begin", "origin", "home", "init", "zero", "ref", "from", "old", "last", "prev")
@@ -57,6 +59,7 @@ def _copies(function: ast.FunctionDef, tree: ast.AST) -> Iterator[tuple[str, ast
             yield from ((name, value, call.lineno) for name, value in zip(names, call.args, strict=False))
 
 
+@suspicion
 def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop that drives by a copy of what a callback goes on setting."""
     set_by = _set_by(tree)
@@ -82,13 +85,14 @@ def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
                 verb = "are copies" if len(old) > 1 else "is a copy"
                 yield (
                     next(iter(old.values()))[1],
-                    "old_pose",
+                    About.OLD_POSE,
                     f"{words} {verb} of {whole}, made before the loop in line {loop.lineno}, which therefore goes on "
                     "with the values from before: read them again in every iteration",
                 )
                 break
 
 
+@suspicion
 def first_message_kept(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that takes what it keeps from its first message only."""
     for function in functions(tree):
@@ -104,12 +108,13 @@ def first_message_kept(tree: ast.AST) -> Iterator[Suspect]:
             if not anew and {each.id for each in nodes_of(sets[0].value, ast.Name)} & message:
                 yield (
                     sets[0].lineno,
-                    "first_kept",
+                    About.FIRST_KEPT,
                     f"self.{name} is set only while it is None, so {function.name} keeps its first message and passes "
                     "over all later ones: set it with each message",
                 )
 
 
+@suspicion
 def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that returns at once when it has kept a message before."""
     for function in functions(tree):
@@ -127,12 +132,13 @@ def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
             if {node.id for node in nodes_of(sets[0].value, ast.Name)} & message:
                 yield (
                     test.lineno,
-                    "first_kept",
+                    About.FIRST_KEPT,
                     f"{function.name} returns here as soon as self.{name} is set, so it keeps its first message and "
                     "passes over all later ones: set it with each message",
                 )
 
 
+@suspicion
 def set_by_default(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that keeps its message by `setdefault`, which keeps the first one."""
     for function in functions(tree):
@@ -145,7 +151,7 @@ def set_by_default(tree: ast.AST) -> Iterator[Suspect]:
             if _names(call.args[1]) & (message | made) and not _on_purpose(unparse(call)):
                 yield (
                     call.lineno,
-                    "first_kept",
+                    About.FIRST_KEPT,
                     f"setdefault() sets what is not set yet, so {function.name} keeps its first message and passes "
                     "over all later ones: [key] = value sets it with each message",
                 )
@@ -179,6 +185,3 @@ def _sets(node: ast.Assign, name: str) -> bool:
         for target in node.targets
         for each in walk(target)
     )
-
-
-LOOKS = (copied_before_a_loop, first_message_kept, returns_when_set, set_by_default)

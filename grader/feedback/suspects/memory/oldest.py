@@ -5,12 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, unparse
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.memory.old_values import FIRST
 
 ADDS = frozenset({"append", "appendleft"})
 
 
+@suspicion
 def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.poses[0]` as the pose of now, where each message is appended to `self.poses`."""
     listening = [each for each in functions(tree) if ".pose.pose" in unparse(each) or "_odom" in each.name]
@@ -22,7 +25,7 @@ def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
     for function in functions(tree):
         for target, value in assigned(function):
             if isinstance(value, ast.Call) and unparse(value) in {f"min({each})" for each in kept}:
-                yield value.lineno, "pose", f"{unparse(value)} is the oldest pose that is kept: [-1] is the newest"
+                yield value.lineno, About.POSE, f"{unparse(value)} is the oldest pose that is kept: [-1] is the newest"
             part = value.value if isinstance(value, ast.Attribute) else value
             whole = part.value if isinstance(part, ast.Subscript) else part
             name, adds = unparse(whole), kept.get(unparse(whole), "")
@@ -32,7 +35,7 @@ def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
             if unparse(part.slice) == old and f"{name}[{new}]" not in unparse(function):
                 yield (
                     part.lineno,
-                    "pose",
+                    About.POSE,
                     f"{name}[{old}] is the oldest pose that is kept, not the present one, because {adds}() adds at the "
                     f"other end: {name}[{new}] is the newest",
                 )
@@ -40,6 +43,3 @@ def oldest_taken(tree: ast.AST) -> Iterator[Suspect]:
 
 def _on_purpose(target: ast.expr) -> bool:
     return any(part in unparse(target).lower() for part in FIRST)
-
-
-LOOKS = (oldest_taken,)

@@ -6,13 +6,66 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.planning.own_places import CORNER_X, CORNER_Y, X, Y
 from gz_course.grader.feedback.suspects.planning.ways import AIMED
 
 HEADINGS = re.compile(r"err|angle|diff|delta|turn|bearing|heading|yaw|theta", re.IGNORECASE)
 
 
+@suspicion
+def crossed(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `hypot(x - pose.y, y - pose.x)`."""
+    for call, name in calls(tree):
+        if name not in (AIMED | {"hypot"}) or len(call.args) != 2:
+            continue
+        pairs = [(each.left, each.right) for each in call.args if isinstance(each, ast.BinOp) and _is_difference(each)]
+        axes = [tuple(_axis(side) for side in pair) for pair in pairs]
+        if axes in ([("x", "y"), ("y", "x")], [("y", "x"), ("x", "y")]):
+            yield (
+                call.lineno,
+                About.CELL,
+                f"{unparse(call)[:70]} subtracts y from x and x from y: x belongs to x, and y to y",
+            )
+
+
+def _is_difference(node: ast.AST) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
+
+
+@suspicion
+def other_branch(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `if abs(error) < 0.5:` with a turn on the spot below it, and with the drive in the other branch."""
+    for node in (each for each in nodes_of(tree, ast.If) if each.orelse):
+        match node.test:
+            case ast.Compare(
+                left=ast.Call(func=func, args=[error]), ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE() as op]
+            ) if unparse(func).rpartition(".")[2] in ("abs", "fabs"):
+                small = node.body if isinstance(op, ast.Lt | ast.LtE) else node.orelse
+                large = node.orelse if small is node.body else node.body
+            case _:
+                continue
+        if HEADINGS.search(unparse(error)) and _drives(large) and not _drives(small) and _turns(small):
+            yield (
+                node.lineno,
+                About.SIGN,
+                f"`{unparse(node.test)[:60]}`: the robot turns on the spot while {unparse(error)} is small, "
+                "and drives while it is large: the two branches, or < and >, are exchanged",
+            )
+
+
+def _drives(block: list[ast.stmt]) -> bool:
+    sets = [pair for each in block for pair in assigned(each)]
+    return any(unparse(one).endswith("linear.x") and unparse(value) not in ("0", "0.0") for one, value in sets)
+
+
+def _turns(block: list[ast.stmt]) -> bool:
+    return any(unparse(one).endswith("angular.z") for each in block for one, _ in assigned(each))
+
+
+@suspicion
 def without_heading(tree: ast.AST) -> Iterator[Suspect]:
     """Find `error = atan2(goal_y - y, goal_x - x)`, by which angular.z turns, although no heading is taken off it."""
     for function in functions(tree):
@@ -31,58 +84,10 @@ def without_heading(tree: ast.AST) -> Iterator[Suspect]:
             if used and not taken_off and not later:
                 yield (
                     value.lineno,
-                    "sign",
+                    About.SIGN,
                     f"{unparse(aimed[0])[:70]} is the direction of the goal in odom, and angular.z turns by it as "
                     "if the robot looked along x: subtract the heading of the robot, and wrap the difference",
                 )
-
-
-def _is_difference(node: ast.AST) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
-
-
-def other_branch(tree: ast.AST) -> Iterator[Suspect]:
-    """Find `if abs(error) < 0.5:` with a turn on the spot below it, and with the drive in the other branch."""
-    for node in (each for each in nodes_of(tree, ast.If) if each.orelse):
-        match node.test:
-            case ast.Compare(
-                left=ast.Call(func=func, args=[error]), ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE() as op]
-            ) if unparse(func).rpartition(".")[2] in ("abs", "fabs"):
-                small = node.body if isinstance(op, ast.Lt | ast.LtE) else node.orelse
-                large = node.orelse if small is node.body else node.body
-            case _:
-                continue
-        if HEADINGS.search(unparse(error)) and _drives(large) and not _drives(small) and _turns(small):
-            yield (
-                node.lineno,
-                "sign",
-                f"`{unparse(node.test)[:60]}`: the robot turns on the spot while {unparse(error)} is small, "
-                "and drives while it is large: the two branches, or < and >, are exchanged",
-            )
-
-
-def _drives(block: list[ast.stmt]) -> bool:
-    sets = [pair for each in block for pair in assigned(each)]
-    return any(unparse(one).endswith("linear.x") and unparse(value) not in ("0", "0.0") for one, value in sets)
-
-
-def _turns(block: list[ast.stmt]) -> bool:
-    return any(unparse(one).endswith("angular.z") for each in block for one, _ in assigned(each))
-
-
-def crossed(tree: ast.AST) -> Iterator[Suspect]:
-    """Find `hypot(x - pose.y, y - pose.x)`."""
-    for call, name in calls(tree):
-        if name not in (AIMED | {"hypot"}) or len(call.args) != 2:
-            continue
-        pairs = [(each.left, each.right) for each in call.args if isinstance(each, ast.BinOp) and _is_difference(each)]
-        axes = [tuple(_axis(side) for side in pair) for pair in pairs]
-        if axes in ([("x", "y"), ("y", "x")], [("y", "x"), ("x", "y")]):
-            yield (
-                call.lineno,
-                "cell",
-                f"{unparse(call)[:70]} subtracts y from x and x from y: x belongs to x, and y to y",
-            )
 
 
 def _axis(node: ast.expr) -> str:
@@ -90,6 +95,7 @@ def _axis(node: ast.expr) -> str:
     return "x" if X.search(text) else "y" if Y.search(text) else ""
 
 
+@suspicion
 def without_corner(tree: ast.AST) -> Iterator[Suspect]:
     """Find `(column + 0.5) * resolution` in a function that adds no corner, in a file that subtracts one from x."""
     subtracts = any(
@@ -111,11 +117,8 @@ def without_corner(tree: ast.AST) -> Iterator[Suspect]:
                 ):
                     yield (
                         node.lineno,
-                        "cell",
+                        About.CELL,
                         f"{unparse(node)[:60]} is how far cell {unparse(cell)} is from the corner of the map: "
                         "add the corner to have a place in odom",
                     )
                     return
-
-
-LOOKS = (crossed, other_branch, without_heading, without_corner)

@@ -6,11 +6,14 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 EMPTY = re.compile(r"^not |\bis None\b|^len\(.*\) (?:== 0|< 1)$|== \[\]$")
 
 
+@suspicion
 def finished_for_ever(tree: ast.AST) -> Iterator[Suspect]:
     """Find a flag that is set where a search has found nothing, and that no line ever sets back."""
     for name, places in _flags(tree).items() if "OccupancyGrid" in unparse(tree) else ():
@@ -23,13 +26,14 @@ def finished_for_ever(tree: ast.AST) -> Iterator[Suspect]:
                 if place is not None and EMPTY.search(test) and name not in test and ".scan" not in test:
                     yield (
                         place.lineno,
-                        "flag",
+                        About.FLAG,
                         f"{unparse(place)[:40]} is set as soon as `{test[:40]}` holds, and nothing sets it back: "
                         "if that is so at the first call, before a scan has come, the robot never drives; wait for a "
                         "scan before you search, and search again later",
                     )
 
 
+@suspicion
 def planned_once(tree: ast.AST) -> Iterator[Suspect]:
     """Find a function that returns at once after its first call, by a flag or by a state that only it changes."""
     flags = _flags(tree)
@@ -47,16 +51,17 @@ def planned_once(tree: ast.AST) -> Iterator[Suspect]:
                 name = unparse(test)
                 own = [each for each in function.body if each.lineno in flags.get(name, ())]
                 if own:
-                    yield node.lineno, "way", _once(function.name, unparse(own[0]))
+                    yield node.lineno, About.WAY, _once(function.name, unparse(own[0]))
                 match test:
                     case ast.Compare(left=left, ops=[ast.NotEq()], comparators=[ast.Constant(value=str()) as asked]):
                         given = states.get(unparse(left), [])
                         begun = {where for where, text in given if text == unparse(asked)}
                         other = [text for where, text in given if where == function.name and text != unparse(asked)]
                         if begun == {"__init__"} and other:
-                            yield node.lineno, "way", _once(function.name, f"{unparse(left)} = {other[-1]}")
+                            yield node.lineno, About.WAY, _once(function.name, f"{unparse(left)} = {other[-1]}")
 
 
+@suspicion
 def kept_way(tree: ast.AST) -> Iterator[Suspect]:
     """Find a function that returns while there is a way, and alone sets it: nothing takes the way away again."""
     for function in functions(tree):
@@ -79,7 +84,7 @@ def kept_way(tree: ast.AST) -> Iterator[Suspect]:
             if read and not changed and function.name in makers <= {function.name, "__init__"}:
                 yield (
                     node.lineno,
-                    "way",
+                    About.WAY,
                     f"{function.name} returns while `{name}` holds anything, and nothing empties it: the first way is "
                     "kept for ever, also when the robot is at its end. Take out the cells that are reached, or plan "
                     "again each time",
@@ -118,6 +123,3 @@ def _guards(tree: ast.AST, name: str) -> bool:
         if (name in parts and any(isinstance(each, ast.Return) for each in node.body)) or f"not {name}" in parts:
             return True
     return False
-
-
-LOOKS = (finished_for_ever, planned_once, kept_way)

@@ -5,12 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 UNKNOWN = ("-1", "UNKNOWN", "self.UNKNOWN", "unknown")
 SIDES = 3  # at least, of the four neighbours of a cell
 
 
+@suspicion
 def unknown_on_all_sides(tree: ast.AST) -> Iterator[Suspect]:
     """Find `all(value(cell) == -1 for cell in neighbours)`, or as many comparisons joined by `and`."""
     if "OccupancyGrid" not in unparse(tree):
@@ -27,7 +30,7 @@ def unknown_on_all_sides(tree: ast.AST) -> Iterator[Suspect]:
         if asked and id(node) not in denied:
             yield (
                 node.lineno,
-                "way",
+                About.WAY,
                 f"`{unparse(node)[:80]}` asks for unknown cells on every side, and a free cell that a ray has "
                 "reached has a free one on the side where the ray came from: one unknown neighbour makes a frontier, "
                 "any(...)",
@@ -44,6 +47,3 @@ def _is_unknown(node: ast.expr) -> bool:
         case ast.Compare(ops=[ast.Lt()], comparators=[ast.Constant(value=0)]):
             return True
     return False
-
-
-LOOKS = (unknown_on_all_sides,)

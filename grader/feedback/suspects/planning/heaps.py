@@ -5,11 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 NAMES = frozenset({"heappush", "put"})
 
 
+@suspicion
 def other_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find `heappush(heap, (cell, cost))` and `heappush(heap, (-cost, cell))`."""
     for function in functions(tree):
@@ -24,14 +27,14 @@ def other_first(tree: ast.AST) -> Iterator[Suspect]:
             if _negative(first, values):
                 yield (
                     call.lineno,
-                    "search",
+                    About.SEARCH,
                     f"{texts[0]} is put into a heap with {texts[1]}, a cost with a minus, and a heap gives out the "
                     "least first: the search goes to the farthest cells first; put the cost itself in front",
                 )
             elif (isinstance(first, ast.Tuple) or texts[1] in keys) and any(_is_a_cost(each, values) for each in rest):
                 yield (
                     call.lineno,
-                    "search",
+                    About.SEARCH,
                     f"{texts[0]} begins with the cell {texts[1]}, and a heap is ordered by what stands first: the "
                     "search goes to the lowest row or column first, not to the nearest cell; put the cost in front",
                 )
@@ -65,6 +68,3 @@ def _negative(node: ast.expr, values: dict[str, ast.expr]) -> bool:
 def _is_a_cost(node: ast.expr, values: dict[str, ast.expr]) -> bool:
     value = values.get(unparse(node), node)
     return isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add)
-
-
-LOOKS = (other_first,)

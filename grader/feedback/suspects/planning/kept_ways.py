@@ -7,7 +7,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 WAY = re.compile(r"path|way|route|plan|frontier|goal|target", re.IGNORECASE)
 FAR, FAR_CELLS = 0.8, 8  # [m], [cells] ahead on the way, from where on corners are cut
@@ -16,6 +18,7 @@ CELL = 0.1  # [m]
 DISTANCES = ("hypot", "dist", "distance", "norm")
 
 
+@suspicion
 def drives_without_a_way(tree: ast.Module) -> Iterator[Suspect]:
     """Find `linear.x = 0.3` in the branch for a robot that has no way to follow."""
     known = named_numbers(tree)
@@ -27,7 +30,7 @@ def drives_without_a_way(tree: ast.Module) -> Iterator[Suspect]:
                 if unparse(target).endswith("linear.x") and speed is not None and speed > 0:
                     yield (
                         value.lineno,
-                        "blind",
+                        About.BLIND,
                         f"linear.x is {speed:g} where the robot has no way (line {node.lineno}, "
                         f"`{unparse(node.test)[:60]}`), so it drives ahead without looking where: stand, or turn",
                     )
@@ -49,6 +52,7 @@ def _asks_for_a_way(test: ast.expr) -> bool | None:
     return None
 
 
+@suspicion
 def aims_far_ahead(tree: ast.Module) -> Iterator[Suspect]:
     """Find an aim that is a metre or more ahead on the way, to which the robot drives straight."""
     known = named_numbers(tree)
@@ -72,12 +76,13 @@ def aims_far_ahead(tree: ast.Module) -> Iterator[Suspect]:
 def _far(node: ast.expr, far: str, code: str) -> Suspect:
     return (
         node.lineno,
-        "far_aim",
+        About.FAR_AIM,
         f"`{code[:70]}` aims at a cell {far} ahead on the way, and the robot drives straight to it, which cuts the "
         "corners of the way: aim at one that is 0.3 to 0.5 m ahead",
     )
 
 
+@suspicion
 def walls_left_out(tree: ast.Module) -> Iterator[Suspect]:
     """Find a large square around the robot in which a cell near a wall counts as free."""
     known = named_numbers(tree)
@@ -100,7 +105,7 @@ def walls_left_out(tree: ast.Module) -> Iterator[Suspect]:
 def _left_out(node: ast.stmt | ast.expr, cells: Number, code: str) -> Suspect:
     return (
         node.lineno,
-        "left_out_walls",
+        About.LEFT_OUT_WALLS,
         f"`{code[:70]}`: up to {cells:g} cells ({cells * CELL:.1f} m) around the robot, cells near walls count as "
         "free, so its way may touch a wall beside it: 2 cells are enough for a robot to leave a wall",
     )
@@ -128,6 +133,3 @@ def _slice(of: ast.expr, known: dict[str, Number]) -> Number:
         ).startswith(unparse(middle)):
             return number(reach, known) or 0
     return 0
-
-
-LOOKS = (drives_without_a_way, aims_far_ahead, walls_left_out)

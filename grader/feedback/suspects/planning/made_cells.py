@@ -6,7 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.planning.own_places import CORNER_X, CORNER_Y
 
 OF_X, OF_Y = re.compile(r"(?:\b|_)[a-z]?x\b"), re.compile(r"(?:\b|_)[a-z]?y\b")
@@ -14,6 +16,7 @@ ROWS_FIRST = re.compile(r"\((?:\w+\.)*(?:height|h|rows|n_?rows), (?:\w+\.)*(?:wi
 COLUMNS_FIRST = re.compile(r"\((?:\w+\.)*(?:width|w|cols|columns), (?:\w+\.)*(?:height|h|rows)\)", re.IGNORECASE)
 
 
+@suspicion
 def exchanged(tree: ast.AST) -> Iterator[Suspect]:
     """Find `x0 + (j + 0.5) * size`, where j was made of y, and `grid[i, j]`, where i was, of an array of rows."""
     text = unparse(tree)
@@ -29,7 +32,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
                     if known and len(made) == 1 and made != {of}:
                         yield (
                             node.lineno,
-                            "cell",
+                            About.CELL,
                             f"{unparse(node)[:60]} makes {of} of a number of cells that was made of {made.pop()}",
                         )
                 case ast.Subscript(slice=ast.Tuple(elts=[first, second])) if rows_first:
@@ -38,7 +41,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
                     if made == {"x"} and other == {"y"}:
                         yield (
                             node.lineno,
-                            "cell",
+                            About.CELL,
                             f"{unparse(node)[:60]} has the number of cells along x first, but the array has its "
                             "rows first, which lie along y: the index is [row, column]",
                         )
@@ -62,6 +65,3 @@ def _kinds(function: ast.FunctionDef) -> dict[str, str]:
 
 def _names(node: ast.AST) -> set[str]:
     return {each.id for each in nodes_of(node, ast.Name)}
-
-
-LOOKS = (exchanged,)

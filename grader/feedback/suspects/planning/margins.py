@@ -7,21 +7,16 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    calls,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 CELL = 0.1  # [m]
 NOTHING = ("0", "FREE", "self.FREE")
 NARROW, WIDE = 2, 5  # [cells] at most, at least
 
 
+@suspicion
 def margins(tree: ast.Module) -> Iterator[Suspect]:
     """Find by how many cells walls are widened before a way is planned."""
     if "OccupancyGrid" not in unparse(tree):
@@ -30,19 +25,20 @@ def margins(tree: ast.Module) -> Iterator[Suspect]:
         if 0 <= cells <= NARROW:
             yield (
                 line,
-                "narrow",
+                About.NARROW,
                 f"{code} is {cells:g}, so ways keep {cells:g} cell{'' if cells == 1 else 's'} ({cells * CELL:.1f} m) "
                 "away from walls: too little for a radius of 0.18 m and half a cell of rounding; 3 cells are enough",
             )
         elif cells >= WIDE:
             yield (
                 line,
-                "wide",
+                About.WIDE,
                 f"{code} is {cells:g}, so ways keep {cells:g} cells ({cells * CELL:.1f} m) away from walls on both "
                 "sides, which closes doors and corners: radius and some margin are about 3 cells",
             )
 
 
+@suspicion
 def widened_unknown(tree: ast.AST) -> Iterator[Suspect]:
     """Find walls that are widened together with what is unknown, which closes every way to a frontier."""
     if "OccupancyGrid" not in unparse(tree):
@@ -56,7 +52,7 @@ def widened_unknown(tree: ast.AST) -> Iterator[Suspect]:
                 case ast.Compare(ops=[ast.NotEq()], comparators=[free]) if unparse(free) in NOTHING:
                     yield (
                         node.lineno,
-                        "wide",
+                        About.WIDE,
                         f"`{unparse(node.test)[:60]}` is true for unknown cells, too, and they are widened like "
                         "walls, so no free cell beside an unknown one can be reached: widen the occupied cells only",
                     )
@@ -122,6 +118,3 @@ def _of_walls(call: ast.Call) -> bool:
     """Return whether what is widened is not what is unknown, as for the search for frontiers."""
     first = unparse(call.args[0]).lower()
     return "unknown" not in first and "-1" not in first and "free" not in first and last_name(call.func) != "roll"
-
-
-LOOKS = (margins, widened_unknown)

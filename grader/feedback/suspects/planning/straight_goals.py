@@ -6,22 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    called,
-    calls,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, called, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 NEAREST = frozenset({"min", "argmin", "sorted", "argsort", "sort"})
 DISTANCE = re.compile(r"\bhypot\(|\bnorm\(|\bdist(?:ance)?\(|\*\* 2")
 TAKES = frozenset({"pop", "popleft", "heappop", "get", "get_nowait"})
 
 
+@suspicion
 def straight_goals(tree: ast.AST) -> Iterator[Suspect]:
     """Find the nearest of several cells as the crow flies, where no loop takes cells out of a queue."""
     loops = nodes_of(tree, ast.While, ast.For)
@@ -43,10 +37,7 @@ def straight_goals(tree: ast.AST) -> Iterator[Suspect]:
             if "ranges" not in text and (DISTANCE.search(text) or text in distances or own):
                 yield (
                     call.lineno,
-                    "straight",
+                    About.STRAIGHT,
                     f"{unparse(call)[:60]} takes the goal that is nearest in a straight line, and nothing searches "
                     "a way to it: a wall may stand between; search through free cells, breadth first",
                 )
-
-
-LOOKS = (straight_goals,)

@@ -8,12 +8,15 @@ from collections.abc import Iterator
 from typing import TypeGuard
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 COUNTS = re.compile(r"hit|pass|free|miss|seen|count|visit|evidence|score|odds", re.IGNORECASE)
 MANY = 10  # observations, after which a scanner has turned elsewhere
 
 
+@suspicion
 def many_observations(tree: ast.Module) -> Iterator[Suspect]:
     """Find `self.passes > 60`, by which a cell that was seen 60 times is still unknown."""
     if "OccupancyGrid" not in unparse(tree):
@@ -32,12 +35,13 @@ def many_observations(tree: ast.Module) -> Iterator[Suspect]:
         if least is not None and least >= MANY and scanned and "len(" not in text:
             yield (
                 node.lineno,
-                "threshold",
+                About.THRESHOLD,
                 f"{unparse(node)[:60]} asks for {least:g} observations of a cell, and most cells are seen less "
                 "often: decide by which of hits and passes are more, from the first one on",
             )
 
 
+@suspicion
 def free_again(tree: ast.Module) -> Iterator[Suspect]:
     """Find `grid[hits > 0] = 100` before `grid[passes > 0] = 0`, where walls that rays have passed become free."""
     if "OccupancyGrid" not in unparse(tree):
@@ -63,7 +67,7 @@ def free_again(tree: ast.Module) -> Iterator[Suspect]:
                 ):
                     yield (
                         statement.lineno,
-                        "erased",
+                        About.ERASED,
                         f"`{unparse(statement)[:70]}` comes after line {line}, `{unparse(first)[:50]}`, which "
                         "makes cells occupied: where both hold, as in walls that some ray has passed, the later one "
                         "counts, so they are free: exchange the two lines",
@@ -87,6 +91,3 @@ def _counted(node: ast.expr) -> set[str]:
     left = node.left if isinstance(node, ast.Compare) else node
     names = nodes_of(left, ast.Attribute, ast.Name)
     return {unparse(each) for each in names} - {"self", "np"}
-
-
-LOOKS = (many_observations, free_again)

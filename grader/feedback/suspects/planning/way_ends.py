@@ -5,13 +5,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.planning.ways import SHORTENS, TURNS_ROUND, never_shortened
+
+BEFORE = ("closed_gates",)
 
 COLLECTS = frozenset({"append", "insert", "appendleft"})
 
 
-def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion
+def ends_of_a_way(tree: ast.Module) -> Iterator[Suspect]:
     """Find a file that reads only the first, or only the last, cell of a way that it searched from start to goal."""
     if any(never_shortened(tree)):
         return  # which says more
@@ -35,14 +40,14 @@ def ends_of_a_way(tree: ast.AST) -> Iterator[Suspect]:
             if kinds == {"0"}:
                 yield (
                     read[0].lineno,
-                    "way",
+                    About.WAY,
                     f"{way}[0] is the first cell of the way, in which the robot stands already, so it has no "
                     "direction to steer to: steer to a cell further along, and take out those that are reached",
                 )
             elif kinds == {"-1"}:
                 yield (
                     read[0].lineno,
-                    "way",
+                    About.WAY,
                     f"{way}[-1] is the end of the way, and the robot steers straight to it, through what the way goes "
                     "round: follow the cells of the way one after another",
                 )
@@ -65,6 +70,7 @@ def _follows_back(function: ast.FunctionDef) -> bool:
     )
 
 
+@suspicion
 def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.way.pop()` after a test of `self.way[0]`: the last cell is taken out, not the one that is reached."""
     for node in nodes_of(tree, ast.While, ast.If):
@@ -74,12 +80,13 @@ def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
             if name == "pop" and not call.args and f"{way}[0]" in whole and f"{way}[-1]" not in whole:
                 yield (
                     call.lineno,
-                    "way",
+                    About.WAY,
                     f"{unparse(call)} takes the last cell out of the way, and `{whole[:50]}` is about the first "
                     f"one: {way}.pop(0) takes out what is reached",
                 )
 
 
+@suspicion
 def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
     """Find a loop over a way that returns, or breaks, in its first pass whatever the cell is."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -89,11 +96,8 @@ def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
             if unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
                 yield (
                     loop.lineno,
-                    "way",
+                    About.WAY,
                     f"the loop over {unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
                     "it always takes the first cell of the way, in which the robot stands: a condition must say which "
                     "cell is far enough",
                 )
-
-
-LOOKS = (ends_of_a_way, other_end_taken, left_in_the_first_pass)

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     calls,
@@ -19,6 +18,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.steering.headings import HEADING
 
 SHORTENS = frozenset({"pop", "popleft", "remove", "clear"})
@@ -29,6 +30,60 @@ HOLDS = frozenset({"clip", "minimum", "maximum", "min", "max"})
 AIMED = frozenset({"atan2", "arctan2"})
 
 
+@suspicion
+def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the direction of a place from the origin where that from the robot is meant: no pose is subtracted."""
+    poses = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith((".position.x", "p.x"))}
+    makers = {each.name for each in functions(tree) if not any(pose in unparse(each) for pose in poses)}
+    for function in functions(tree) if poses else ():
+        places: dict[str, int] = {}
+        for target, value in assigned(function):
+            made = isinstance(value, ast.Call) and last_name(value.func) in makers and len(value.args) == 1
+            for each in target.elts if isinstance(target, ast.Tuple) and (made or _of_a_path(value)) else ():
+                places[unparse(each)] = value.lineno
+        for call, name in calls(function):
+            texts = [unparse(each) for each in call.args]
+            if name in AIMED and len(texts) == 2 and all(text in places for text in texts):
+                yield (
+                    call.lineno,
+                    About.CELL,
+                    f"{unparse(call)} is the direction of ({texts[1]}, {texts[0]}) from the origin of the map, "
+                    "not from the robot: subtract the robot's x and y first",
+                )
+
+
+def _set(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    return ((target, value) for target, value in assigned(tree) if isinstance(value, ast.Name | ast.Tuple))
+
+
+@suspicion
+def part_of_a_scan(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a loop that goes through a part of the rays while it draws a map."""
+    for function in functions(tree):
+        for loop in nodes_of(function, ast.For):
+            for node in walk(loop.iter):
+                part = isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) and node.slice.step is None
+                if isinstance(node, ast.Subscript) and part and unparse(node.value).endswith(".ranges"):
+                    yield (
+                        node.lineno,
+                        About.PART,
+                        f"{unparse(node)[:60]} leaves out a part of the rays: what stands on that side never gets "
+                        "into the map",
+                    )
+
+
+@kept
+def _from_the_end(tree: ast.AST) -> bool:
+    """Return whether a function takes the last cell of a way, and does not go through it from its first one."""
+    for function in functions(tree):
+        ends = {unparse(each.value) for each in nodes_of(function, ast.Subscript) if unparse(each).endswith("[-1]")}
+        loops = {unparse(each.iter) for each in nodes_of(function, ast.For)}
+        if ends - loops:
+            return True
+    return False
+
+
+@suspicion
 def depth_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find a search for a way that goes on from the cell that was added last."""
     for function in functions(tree):
@@ -43,17 +98,26 @@ def depth_first(tree: ast.AST) -> Iterator[Suspect]:
                 if queue in unparse(loop.test) and added and kept:
                     yield (
                         value.lineno,
-                        "search",
+                        About.SEARCH,
                         f"{unparse(value)} takes the newest cell of {queue}, so the search runs deep before it "
                         "looks around: its ways wind and lead to some goal, not to the nearest; the oldest cell, "
                         "popleft() of a deque, gives the shortest way",
                     )
 
 
-def _set(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
-    return ((target, value) for target, value in assigned(tree) if isinstance(value, ast.Name | ast.Tuple))
+def _planners(owner: ast.ClassDef, way: str) -> set[str]:
+    """Return the methods that collect a way cell by cell in an attribute themselves."""
+    return {
+        one.name
+        for one in functions(owner)
+        if one.name != "__init__"
+        and any(unparse(target) == way for target, _ in assigned(one))
+        and (called(one) & COLLECTS)
+        and any(isinstance(each, ast.While) for each in walk(one))
+    }
 
 
+@suspicion
 def backwards(tree: ast.AST) -> Iterator[Suspect]:
     """Find a way that is followed back from its goal to the start, and not turned round."""
     for function in functions(tree):
@@ -72,23 +136,13 @@ def backwards(tree: ast.AST) -> Iterator[Suspect]:
                     if not any(each in unparse(tree) for each in ahead):
                         yield (
                             call.lineno,
-                            "way",
+                            About.WAY,
                             f"{unparse(call)} collects the way from the goal back to the start, and nothing turns "
                             f"it round: its first cells are those at the goal; {way}.reverse() makes it begin here",
                         )
 
 
-@kept
-def _from_the_end(tree: ast.AST) -> bool:
-    """Return whether a function takes the last cell of a way, and does not go through it from its first one."""
-    for function in functions(tree):
-        ends = {unparse(each.value) for each in nodes_of(function, ast.Subscript) if unparse(each).endswith("[-1]")}
-        loops = {unparse(each.iter) for each in nodes_of(function, ast.For)}
-        if ends - loops:
-            return True
-    return False
-
-
+@suspicion
 def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
     """Find a way that is planned only while there is none, and of which no cell is ever taken out."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -133,24 +187,13 @@ def never_shortened(tree: ast.AST) -> Iterator[Suspect]:
             if (planned or calls_planner) and followed and not (others or shortened or deleted or again):
                 yield (
                     node.lineno,
-                    "way",
+                    About.WAY,
                     f"{way} is planned only while it is empty, and nothing takes a cell out of it: the robot goes for "
                     "the same cell for ever. Take out the cells that are reached, or plan again each time",
                 )
 
 
-def _planners(owner: ast.ClassDef, way: str) -> set[str]:
-    """Return the methods that collect a way cell by cell in an attribute themselves."""
-    return {
-        one.name
-        for one in functions(owner)
-        if one.name != "__init__"
-        and any(unparse(target) == way for target, _ in assigned(one))
-        and (called(one) & COLLECTS)
-        and any(isinstance(each, ast.While) for each in walk(one))
-    }
-
-
+@suspicion
 def first_pose(tree: ast.AST) -> Iterator[Suspect]:
     """Find a callback that returns if it has a pose already, and so keeps that of its first message."""
     for function in functions(tree):
@@ -182,67 +225,9 @@ def first_pose(tree: ast.AST) -> Iterator[Suspect]:
             if name in later and not elsewhere:
                 yield (
                     node.lineno,
-                    "pose",
+                    About.POSE,
                     f"{function.name} returns here once {name} is set, so the pose is that of the first message for "
                     "ever, and the map and the ways do not move with the robot: set it in every call",
-                )
-
-
-def small_counters(tree: ast.AST) -> Iterator[Suspect]:
-    """Find an array of 8 bits in which something is counted."""
-    small = {
-        unparse(target): value.lineno
-        for target, value in assigned(tree)
-        if isinstance(value, ast.Call) and SMALL.search(unparse(value)) and last_name(value.func) != "astype"
-    }
-    for function in functions(tree):
-        limited = {unparse(each) for call, name in calls(function) if name in HOLDS for each in walk(call)}
-        for node in walk(function):
-            name = ""
-            if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Subscript | ast.Attribute):
-                whole = node.target.value if isinstance(node.target, ast.Subscript) else node.target
-                while isinstance(whole, ast.Subscript):
-                    whole = whole.value
-                name = unparse(whole)
-            elif isinstance(node, ast.Call) and unparse(node.func).endswith("add.at") and node.args:
-                name = unparse(node.args[0])
-            if name in small and name not in limited:
-                yield (
-                    node.lineno,  # type: ignore[attr-defined]
-                    "counter",
-                    f"{name} has numbers of 8 bits (line {small[name]}), which begin again at the other end when a "
-                    "count passes 127 (int8) or 255 (uint8), and near the robot many rays pass a cell: count with "
-                    "larger integers, dtype=int",
-                )
-                return
-
-
-def turned_the_wrong_way(tree: ast.AST) -> Iterator[Suspect]:
-    """Find an error that is the heading minus the direction of the goal, and turns the robot with a positive gain."""
-    values = {unparse(target): value for target, value in assigned(tree)}
-    aimed = {
-        name for name, value in values.items() if called(value) & AIMED and not re.search(r"\.[wz]\b", unparse(value))
-    }
-    for target, value in assigned(tree):
-        for node in nodes_of(value, ast.BinOp):
-            if not isinstance(node.op, ast.Sub):
-                continue
-            left, right = unparse(node.left), unparse(node.right)
-            backward = isinstance(node.left, ast.Attribute | ast.Name) and HEADING.search(left) and left not in aimed
-            if not backward or not (right in aimed or right.startswith(("atan2(", "math.atan2(", "np.arctan2("))):
-                continue
-            error = unparse(target)
-            used = [
-                other
-                for one, other in assigned(tree)
-                if unparse(one).endswith("angular.z") and error in {unparse(each) for each in walk(other)}
-            ]
-            if used and all(_sign(each, error, values) > 0 for each in used):
-                yield (
-                    node.lineno,
-                    "sign",
-                    f"{unparse(node)[:60]} is the error with the wrong sign, and angular.z turns by it: the robot "
-                    "turns away from its goal; it is the direction of the goal minus the heading",
                 )
 
 
@@ -269,6 +254,71 @@ def _sign(node: ast.expr, name: str, values: dict[str, ast.expr]) -> int:
     )
 
 
+@suspicion
+def small_counters(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an array of 8 bits in which something is counted."""
+    small = {
+        unparse(target): value.lineno
+        for target, value in assigned(tree)
+        if isinstance(value, ast.Call) and SMALL.search(unparse(value)) and last_name(value.func) != "astype"
+    }
+    for function in functions(tree):
+        limited = {unparse(each) for call, name in calls(function) if name in HOLDS for each in walk(call)}
+        for node in walk(function):
+            name = ""
+            if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Subscript | ast.Attribute):
+                whole = node.target.value if isinstance(node.target, ast.Subscript) else node.target
+                while isinstance(whole, ast.Subscript):
+                    whole = whole.value
+                name = unparse(whole)
+            elif isinstance(node, ast.Call) and unparse(node.func).endswith("add.at") and node.args:
+                name = unparse(node.args[0])
+            if name in small and name not in limited:
+                yield (
+                    node.lineno,  # type: ignore[attr-defined]
+                    About.COUNTER,
+                    f"{name} has numbers of 8 bits (line {small[name]}), which begin again at the other end when a "
+                    "count passes 127 (int8) or 255 (uint8), and near the robot many rays pass a cell: count with "
+                    "larger integers, dtype=int",
+                )
+                return
+
+
+def _of_a_path(value: ast.expr) -> bool:
+    return isinstance(value, ast.Subscript) and bool(re.search(r"path|way|route|plan|cells", unparse(value.value)))
+
+
+@suspicion
+def turned_the_wrong_way(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an error that is the heading minus the direction of the goal, and turns the robot with a positive gain."""
+    values = {unparse(target): value for target, value in assigned(tree)}
+    aimed = {
+        name for name, value in values.items() if called(value) & AIMED and not re.search(r"\.[wz]\b", unparse(value))
+    }
+    for target, value in assigned(tree):
+        for node in nodes_of(value, ast.BinOp):
+            if not isinstance(node.op, ast.Sub):
+                continue
+            left, right = unparse(node.left), unparse(node.right)
+            backward = isinstance(node.left, ast.Attribute | ast.Name) and HEADING.search(left) and left not in aimed
+            if not backward or not (right in aimed or right.startswith(("atan2(", "math.atan2(", "np.arctan2("))):
+                continue
+            error = unparse(target)
+            used = [
+                other
+                for one, other in assigned(tree)
+                if unparse(one).endswith("angular.z") and error in {unparse(each) for each in walk(other)}
+            ]
+            if used and all(_sign(each, error, values) > 0 for each in used):
+                yield (
+                    node.lineno,
+                    About.SIGN,
+                    f"{unparse(node)[:60]} is the error with the wrong sign, and angular.z turns by it: the robot "
+                    "turns away from its goal; it is the direction of the goal minus the heading",
+                )
+
+
+@suspicion
 def cells_for_metres(tree: ast.AST) -> Iterator[Suspect]:
     """Find a cell of a way from which a place in metres is subtracted."""
     poses = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith((".position.x", "p.x"))}
@@ -282,53 +332,7 @@ def cells_for_metres(tree: ast.AST) -> Iterator[Suspect]:
             if name in cells:
                 yield (
                     node.lineno,
-                    "cell",
+                    About.CELL,
                     f"{unparse(node)} subtracts metres from {name}, which comes from {cells[name][:40]}: if these "
                     "are cells, make metres of them first, corner + (cell + 0.5) * resolution",
                 )
-
-
-def _of_a_path(value: ast.expr) -> bool:
-    return isinstance(value, ast.Subscript) and bool(re.search(r"path|way|route|plan|cells", unparse(value.value)))
-
-
-def aimed_from_the_origin(tree: ast.AST) -> Iterator[Suspect]:
-    """Find the direction of a place from the origin where that from the robot is meant: no pose is subtracted."""
-    poses = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith((".position.x", "p.x"))}
-    makers = {each.name for each in functions(tree) if not any(pose in unparse(each) for pose in poses)}
-    for function in functions(tree) if poses else ():
-        places: dict[str, int] = {}
-        for target, value in assigned(function):
-            made = isinstance(value, ast.Call) and last_name(value.func) in makers and len(value.args) == 1
-            for each in target.elts if isinstance(target, ast.Tuple) and (made or _of_a_path(value)) else ():
-                places[unparse(each)] = value.lineno
-        for call, name in calls(function):
-            texts = [unparse(each) for each in call.args]
-            if name in AIMED and len(texts) == 2 and all(text in places for text in texts):
-                yield (
-                    call.lineno,
-                    "cell",
-                    f"{unparse(call)} is the direction of ({texts[1]}, {texts[0]}) from the origin of the map, "
-                    "not from the robot: subtract the robot's x and y first",
-                )
-
-
-def part_of_a_scan(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a loop that goes through a part of the rays while it draws a map."""
-    for function in functions(tree):
-        for loop in nodes_of(function, ast.For):
-            for node in walk(loop.iter):
-                part = isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) and node.slice.step is None
-                if isinstance(node, ast.Subscript) and part and unparse(node.value).endswith(".ranges"):
-                    yield (
-                        node.lineno,
-                        "part",
-                        f"{unparse(node)[:60]} leaves out a part of the rays: what stands on that side never gets "
-                        "into the map",
-                    )
-
-
-LOOKS = (
-    aimed_from_the_origin, part_of_a_scan, depth_first, backwards, never_shortened, first_pose, small_counters,
-    turned_the_wrong_way, cells_for_metres,
-)  # fmt: skip

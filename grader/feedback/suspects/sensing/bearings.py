@@ -7,7 +7,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, children, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, children, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 INCREMENT = "angle_increment"
 OFFSETS = re.compile(r"\bangle_m(?:in|ax)\b")
@@ -16,6 +18,7 @@ FEWEST_DEGREES, MOST_DEGREES = 10, 360  # a number of degrees that is no angle i
 RADIANS = re.compile(r"\bangle_(?:min|max|increment)\b|\batan2\b|\barctan2\b")
 
 
+@suspicion
 def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
     """Find a bearing that is `i * angle_increment`, with no first angle, and the number of a ray without one."""
     if OFFSETS.search(unparse(tree)):
@@ -35,7 +38,7 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
         if (by_hand := _degree_for_each_ray(node, numbers)) and not _shifted(node, parent, summed):
             yield (
                 by_hand,
-                "bearing",
+                About.BEARING,
                 f"{unparse(node)[:60]} takes the number of a ray for its bearing in degrees, counted from ahead: "
                 "ray 0 looks to angle_min, and ray i to angle_min + i * angle_increment",
             )
@@ -51,7 +54,7 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
             continue
         yield (
             node.lineno,
-            "bearing",
+            About.BEARING,
             f"{unparse(node)[:60]} counts from ray 0 as if it looked straight ahead: it looks to angle_min, and "
             "ray i to angle_min + i * angle_increment",
         )
@@ -103,6 +106,7 @@ def _shifted(node: ast.AST, parent: dict[ast.AST, ast.AST], summed: set[str]) ->
     return False
 
 
+@suspicion
 def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
     """Find an angle of a scan, or of atan2, that is compared with a number of degrees or subtracted from one."""
     if called(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", unparse(tree)):
@@ -121,7 +125,7 @@ def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
                     continue
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
-                    "angle",
+                    About.ANGLE,
                     f"{unparse(node)[:60]}: {_shown(limit, value)} are degrees, and {unparse(angle)[:40]} is "
                     "in radians, as all angles of a scan are: math.radians() converts degrees",
                 )
@@ -155,6 +159,3 @@ def _is_index(node: ast.expr) -> bool:
     return bool(called(node) & {"int", "round", "len", "floor", "ceil"}) or any(
         isinstance(each, ast.BinOp) and isinstance(each.op, ast.Div | ast.FloorDiv) for each in walk(node)
     )
-
-
-LOOKS = (from_ray_zero, degrees_beside_radians)

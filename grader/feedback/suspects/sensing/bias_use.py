@@ -6,7 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 
 BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
@@ -18,6 +20,7 @@ def _biases(node: ast.AST) -> set[str]:
     return {each for each in parts if BIAS.search(each)}
 
 
+@suspicion
 def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
     """Find a bias [rad/s] that is taken from the heading [rad], once or in each step without a time."""
     sums = [found for function in reads_rates(tree) for found in angle_sums(function)]
@@ -33,7 +36,7 @@ def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
         ):
             yield (
                 node.lineno,
-                "gyroscope",
+                About.GYROSCOPE,
                 f"{unparse(node)[:70]} subtracts the bias, a rate [rad/s], from an angle [rad]: (rate - bias) * time",
             )
     for name in {name for _, name, _, _ in sums}:
@@ -43,12 +46,13 @@ def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
             if unparse(target) == name and _biases(value) and "angular_velocity" not in unparse(value):
                 yield (
                     value.lineno,
-                    "gyroscope",
+                    About.GYROSCOPE,
                     f"{name} gets {unparse(value)[:40]}: the bias is taken from the angle [rad], once, but it is a "
                     "rate [rad/s], wrong in every message: add (rate - bias) * time each time",
                 )
 
 
+@suspicion
 def never_used(tree: ast.AST) -> Iterator[Suspect]:
     """Find a bias that is measured, and read nowhere but where it is measured."""
     if not any(True for _ in reads_rates(tree)):
@@ -70,11 +74,12 @@ def never_used(tree: ast.AST) -> Iterator[Suspect]:
         if not read and measured:
             yield (
                 measured[0].lineno,
-                "gyroscope",
+                About.GYROSCOPE,
                 f"{name} is measured here and subtracted nowhere: add (rate - {name}) * time",
             )
 
 
+@suspicion
 def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
     """Find a running sum of the standing rates that is subtracted as the bias, and divided nowhere."""
     sums = {
@@ -94,7 +99,7 @@ def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
             if made is not None and unparse(node.right) not in divided:
                 yield (
                     made.lineno,
-                    "gyroscope",
+                    About.GYROSCOPE,
                     f"{unparse(made)[:60]} is the sum of the rates, and it is subtracted as their mean: divide it "
                     "by their number",
                 )
@@ -103,6 +108,3 @@ def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
 def _is_rate(value: ast.expr, function: ast.FunctionDef) -> bool:
     """Say whether an expression is a turning rate alone, with no time beside it."""
     return unparse(expanded(value, assigned_once(function))).endswith("angular_velocity.z")
-
-
-LOOKS = (subtracted_as_an_angle, never_used, sums_for_means)

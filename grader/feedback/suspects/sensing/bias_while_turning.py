@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, last_name, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 
 Guards = frozenset[tuple[str, bool]]  # conditions under which a statement is reached, and whether they hold
@@ -13,6 +15,7 @@ ADDS = frozenset({"append", "appendleft"})
 LEAVES = (ast.Return, ast.Continue, ast.Break, ast.Raise)
 
 
+@suspicion
 def collected_in_the_turn(tree: ast.AST) -> Iterator[Suspect]:
     """Find rates that go into the bias in every call in which the heading grows."""
     for function in reads_rates(tree):
@@ -23,7 +26,7 @@ def collected_in_the_turn(tree: ast.AST) -> Iterator[Suspect]:
                 if statement is not node and _kept(statement, values) & _subtracted(whole, live, values):
                     yield (
                         statement.lineno,
-                        "gyroscope",
+                        About.GYROSCOPE,
                         f"{unparse(statement)[:70]} is done while the robot turns, too, so the turn itself is "
                         "subtracted as if it were bias: collect the rates only in the first second, while it stands",
                     )
@@ -75,6 +78,3 @@ def _subtracted(whole: ast.expr, live: list[ast.stmt], values: dict[str, ast.exp
 
 def _attributes(node: ast.AST) -> set[str]:
     return {unparse(each) for each in nodes_of(node, ast.Attribute)}
-
-
-LOOKS = (collected_in_the_turn,)

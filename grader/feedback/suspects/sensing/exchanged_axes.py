@@ -9,13 +9,16 @@ import ast
 import math
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, unparse
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, unparse
 from gz_course.grader.feedback.slips.geometry.rotations import SOME, pairs
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 OFFSETS = ast.Add | ast.Sub
 STEPS = 4  # calls that hand a name on, at most
 
 
+@suspicion
 def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
     """Find atan2 of what is put into the x of a message, and of what is put into its y, in this order."""
     axes = _axes(tree)
@@ -29,12 +32,13 @@ def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
                 right = f"{name}({left}, {ahead})"
                 yield (
                     call.lineno,
-                    "axes",
+                    About.AXES,
                     f"{unparse(call)[:60]}: {name} takes y first, what is to the left, and that is {left} here: "
                     f"{right}",
                 )
 
 
+@suspicion
 def other_turns(tree: ast.AST) -> Iterator[Suspect]:
     """Find a pair of sums that turns a place, but not by plus the angle whose cosine and sine it has."""
     axes = _axes(tree)
@@ -49,7 +53,7 @@ def other_turns(tree: ast.AST) -> Iterator[Suspect]:
         if found != {(cosine, -sine), (sine, cosine)}:
             yield (
                 first.lineno,
-                "axes",
+                About.AXES,
                 f"{unparse(first)[:50]} and {unparse(second)[:50]} turn the wrong way: for x, it is "
                 f"{ahead} * cos - {left} * sin, and for y {ahead} * sin + {left} * cos",
             )
@@ -85,6 +89,3 @@ def _bare(node: ast.expr) -> str:
     if isinstance(node, ast.BinOp) and isinstance(node.op, OFFSETS) and isinstance(node.right, ast.Constant):
         return _bare(node.left)
     return node.id if isinstance(node, ast.Name) else ""
-
-
-LOOKS = (exchanged_directions, other_turns)

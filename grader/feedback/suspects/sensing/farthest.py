@@ -5,11 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, functions, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 Loop = ast.For | ast.comprehension
 
 
+@suspicion
 def largest_range(tree: ast.Module) -> Iterator[Suspect]:
     """Find the largest of the ranges of a scan in a node that steers, where nothing takes the smallest."""
     if "angular.z" not in unparse(tree):
@@ -23,7 +26,7 @@ def largest_range(tree: ast.Module) -> Iterator[Suspect]:
             if name in ("max", "nanmax") and (text in lists or text.partition("[")[0].endswith(".ranges")):
                 yield (
                     call.lineno,
-                    "farthest",
+                    About.FARTHEST,
                     f"{unparse(call)[:60]} takes the farthest of the ranges: the distance from a wall is that of "
                     "its nearest point, min(...)",
                 )
@@ -39,6 +42,3 @@ def _of_ranges(function: ast.FunctionDef) -> Iterator[str]:
     for target, value in assigned(function):
         if isinstance(value, ast.ListComp) and any(".ranges" in unparse(loop.iter) for loop in value.generators):
             yield unparse(target)
-
-
-LOOKS = (largest_range,)

@@ -6,7 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.steering.headings import TO_RADIANS
 
 TIMES = re.compile(r"stamp|nanosec|now\(|clock|seconds|time|elapsed|passed|\bdt\b|delta", re.IGNORECASE)
@@ -86,121 +88,7 @@ def _constants(tree: ast.AST) -> dict[str, float]:
     }
 
 
-def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
-    """Find rates that are added up with the same time for every message, or without any."""
-    constants = _constants(tree)
-    for function in reads_rates(tree):
-        values = assigned_once(function)
-        for node, name, value in _sums(function):
-            whole = expanded(value, values)
-            names = {unparse(each) for each in nodes_of(whole, ast.Name, ast.Attribute)}
-            others = [each for each in names if each not in constants and TIMES.search(each)]
-            if others or not _adds(node, name) or f"{name} / " in unparse(tree):
-                continue  # a sum that is divided is on its way to be a mean
-            factors = [each for each in names if each in constants and each != name and "bias" not in each]
-            numbers = [each.value for each in nodes_of(whole, ast.Constant) if each.value not in (0, 1)]
-            if factors or numbers:
-                yield (
-                    node.lineno,
-                    "gyroscope",
-                    f"{unparse(node)[:70]} counts every message for the same time, which is not that between "
-                    "two messages: use the difference of their stamps",
-                )
-            else:
-                yield (
-                    node.lineno,
-                    "gyroscope",
-                    f"{unparse(node)[:70]} adds rates [rad/s] without a time: an angle is a rate times the time "
-                    "since the message before",
-                )
-
-
-def _adds(node: ast.stmt, name: str) -> bool:
-    """Say whether a statement adds to what an attribute was."""
-    again = re.compile(rf"{re.escape(name)}\b")
-    return isinstance(node, ast.AugAssign) or bool(isinstance(node, ast.Assign) and again.search(unparse(node.value)))
-
-
-def replaced(tree: ast.AST) -> Iterator[Suspect]:
-    for function in reads_rates(tree):
-        for node, name, value in _sums(function):
-            text = unparse(value)
-            if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
-                yield (
-                    node.lineno,
-                    "gyroscope",
-                    f"{unparse(node)[:70]} forgets what was turned before: the steps are added up, {name} += ...",
-                )
-
-
-def jumps(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a heading that is brought back into one turn."""
-    for function in reads_rates(tree):
-        names = {name for _, name, _ in _sums(function)}
-        for node in walk(function):
-            target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
-            if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or unparse(target) not in names:
-                continue
-            wraps = bool(called(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
-            wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in walk(node.value))
-            wraps |= isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in unparse(node.value)
-            if wraps:
-                yield (
-                    node.lineno,
-                    "gyroscope",
-                    f"{unparse(node)[:70]} makes the heading jump back, so it never reaches a full turn, 2 pi: add "
-                    "up without a limit",
-                )
-
-
-def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
-    """Find another axis than z, and parts of stamps."""
-    for function in reads_rates(tree):
-        text = unparse(function)
-        for node in walk(function):
-            if isinstance(node, ast.Attribute) and unparse(node).endswith(("angular_velocity.x", "angular_velocity.y")):
-                yield node.lineno, "gyroscope", f"{unparse(node)} is tilting: turning on the spot is about z"
-            if isinstance(node, ast.Call) and called(node) & {"degrees", "rad2deg"}:
-                yield (
-                    node.lineno,
-                    "gyroscope",
-                    f"{unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
-                )
-        if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
-            line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "nanosec")
-            yield line, "gyroscope", "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
-        if re.search(r"stamp\.sec\b", text) and ".nanosec" not in text:
-            line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "sec")
-            yield line, "gyroscope", "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
-    for node in nodes_of(tree, ast.Call):
-        if last_name(node.func) in SUMS and _undivided(tree, node):
-            given = unparse(node)
-            if re.search("rate|bias|gyro|still|offset|sample", given):
-                yield node.lineno, "gyroscope", f"{given[:60]} is a sum; the bias is the mean: divide by their number"
-
-
-def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a heading that is compared with 360 where nothing makes degrees."""
-    if called(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
-        return
-    for node in nodes_of(tree, ast.Compare):
-        numbers = [each.value for each in nodes_of(node, ast.Constant)]
-        if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", unparse(node)):
-            yield (
-                node.lineno,
-                "gyroscope",
-                f"{unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
-            )
-
-
-def _undivided(tree: ast.AST, call: ast.Call) -> bool:
-    """Say whether a sum stands in no division, and is not given a name that might be divided later."""
-    for node in nodes_of(tree, ast.BinOp):
-        if isinstance(node.op, ast.Div) and any(e is call for e in walk(node.left)):
-            return False
-    return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
-
-
+@suspicion
 def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find steps of a sum, and functions that return a time, in which a part of a stamp is taken for the whole."""
     for function in reads_rates(tree):
@@ -219,21 +107,13 @@ def parts_of_times(tree: ast.AST) -> Iterator[Suspect]:
                 yield from _part_of_time(each.lineno, unparse(expanded(each.value, assigned_once(other))))
 
 
-def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
-    seconds, rest = re.search(r"\.sec\b", text), ".nanosec" in text
-    if re.search("from_msg|nanoseconds", text) or bool(seconds) == rest:
-        return
-    if rest:
-        yield (
-            line,
-            "gyroscope",
-            "the time is made of stamp.nanosec alone, which begins again at 0 every second: the time is sec + "
-            "nanosec / 1e9",
-        )
-    else:
-        yield line, "gyroscope", "the time is made of stamp.sec alone, whole seconds: the time is sec + nanosec / 1e9"
+def _adds(node: ast.stmt, name: str) -> bool:
+    """Say whether a statement adds to what an attribute was."""
+    again = re.compile(rf"{re.escape(name)}\b")
+    return isinstance(node, ast.AugAssign) or bool(isinstance(node, ast.Assign) and again.search(unparse(node.value)))
 
 
+@suspicion
 def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find a rate, or the sum of rates, that is converted from degrees."""
     for function in reads_rates(tree):
@@ -249,18 +129,14 @@ def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
             if given is not None and _is_rate(expanded(given, values), names):
                 yield (
                     getattr(node, "lineno", function.lineno),
-                    "gyroscope",
+                    About.GYROSCOPE,
                     f"{text[:60]} converts from degrees what is in radians already: angular_velocity is in rad/s, so "
                     "the heading grows 57 times too slowly",
                 )
                 break
 
 
-def _is_rate(value: ast.expr, names: set[str]) -> bool:
-    text = unparse(value)
-    return "angular_velocity" in text or text in names
-
-
+@suspicion
 def biases(tree: ast.AST) -> Iterator[Suspect]:
     """Find what is subtracted from the rates if it is made of the standing rates by something else than their mean."""
     lists = set(_lists_of_rates(tree))
@@ -272,10 +148,160 @@ def biases(tree: ast.AST) -> Iterator[Suspect]:
                 if words and (isinstance(part, ast.Call) or _subtracted(tree, part)):
                     yield (
                         getattr(part, "lineno", function.lineno),
-                        "gyroscope",
+                        About.GYROSCOPE,
                         f"{unparse(part)[:60]} {words}: the bias is their mean, what the gyroscope says on average "
                         "while the robot stands",
                     )
+
+
+@suspicion
+def signs(tree: ast.AST) -> Iterator[Suspect]:
+    """Find rates, or times, that are added up with a wrong sign."""
+    for function in reads_rates(tree):
+        values = assigned_once(function)
+        for node, name, value in _sums(function):
+            if not _adds(node, name):
+                continue
+            whole = expanded(value, values)
+            for each in nodes_of(whole, ast.BinOp):
+                if not isinstance(each.op, ast.Sub):
+                    continue
+                left, right = unparse(each.left), unparse(each.right)
+                if EARLIER.search(left) and not EARLIER.search(right) and "stamp" in right:
+                    yield (
+                        node.lineno,
+                        About.GYROSCOPE,
+                        f"the time {unparse(each)[:60]} is negative: it is the later stamp minus the one before",
+                    )
+            sign = _sign(whole) * (-1 if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) else 1)
+            if sign < 0:
+                yield (
+                    node.lineno,
+                    About.GYROSCOPE,
+                    f"{unparse(node)[:70]} takes the rate with a minus sign: a turn to the left has a positive "
+                    "rate and makes the heading larger",
+                )
+
+
+@suspicion
+def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
+    """Find another axis than z, and parts of stamps."""
+    for function in reads_rates(tree):
+        text = unparse(function)
+        for node in walk(function):
+            if isinstance(node, ast.Attribute) and unparse(node).endswith(("angular_velocity.x", "angular_velocity.y")):
+                yield node.lineno, About.GYROSCOPE, f"{unparse(node)} is tilting: turning on the spot is about z"
+            if isinstance(node, ast.Call) and called(node) & {"degrees", "rad2deg"}:
+                yield (
+                    node.lineno,
+                    About.GYROSCOPE,
+                    f"{unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
+                )
+        if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
+            line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "nanosec")
+            yield line, About.GYROSCOPE, "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
+        if re.search(r"stamp\.sec\b", text) and ".nanosec" not in text:
+            line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "sec")
+            yield line, About.GYROSCOPE, "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
+    for node in nodes_of(tree, ast.Call):
+        if last_name(node.func) in SUMS and _undivided(tree, node):
+            given = unparse(node)
+            if re.search("rate|bias|gyro|still|offset|sample", given):
+                yield (
+                    node.lineno,
+                    About.GYROSCOPE,
+                    f"{given[:60]} is a sum; the bias is the mean: divide by their number",
+                )
+
+
+def _undivided(tree: ast.AST, call: ast.Call) -> bool:
+    """Say whether a sum stands in no division, and is not given a name that might be divided later."""
+    for node in nodes_of(tree, ast.BinOp):
+        if isinstance(node.op, ast.Div) and any(e is call for e in walk(node.left)):
+            return False
+    return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
+
+
+@suspicion
+def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading that is compared with 360 where nothing makes degrees."""
+    if called(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
+        return
+    for node in nodes_of(tree, ast.Compare):
+        numbers = [each.value for each in nodes_of(node, ast.Constant)]
+        if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", unparse(node)):
+            yield (
+                node.lineno,
+                About.GYROSCOPE,
+                f"{unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
+            )
+
+
+def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
+    seconds, rest = re.search(r"\.sec\b", text), ".nanosec" in text
+    if re.search("from_msg|nanoseconds", text) or bool(seconds) == rest:
+        return
+    if rest:
+        yield (
+            line,
+            About.GYROSCOPE,
+            "the time is made of stamp.nanosec alone, which begins again at 0 every second: the time is sec + "
+            "nanosec / 1e9",
+        )
+    else:
+        yield (
+            line,
+            About.GYROSCOPE,
+            "the time is made of stamp.sec alone, whole seconds: the time is sec + nanosec / 1e9",
+        )
+
+
+@suspicion
+def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
+    """Find rates that are added up with the same time for every message, or without any."""
+    constants = _constants(tree)
+    for function in reads_rates(tree):
+        values = assigned_once(function)
+        for node, name, value in _sums(function):
+            whole = expanded(value, values)
+            names = {unparse(each) for each in nodes_of(whole, ast.Name, ast.Attribute)}
+            others = [each for each in names if each not in constants and TIMES.search(each)]
+            if others or not _adds(node, name) or f"{name} / " in unparse(tree):
+                continue  # a sum that is divided is on its way to be a mean
+            factors = [each for each in names if each in constants and each != name and "bias" not in each]
+            numbers = [each.value for each in nodes_of(whole, ast.Constant) if each.value not in (0, 1)]
+            if factors or numbers:
+                yield (
+                    node.lineno,
+                    About.GYROSCOPE,
+                    f"{unparse(node)[:70]} counts every message for the same time, which is not that between "
+                    "two messages: use the difference of their stamps",
+                )
+            else:
+                yield (
+                    node.lineno,
+                    About.GYROSCOPE,
+                    f"{unparse(node)[:70]} adds rates [rad/s] without a time: an angle is a rate times the time "
+                    "since the message before",
+                )
+
+
+def _is_rate(value: ast.expr, names: set[str]) -> bool:
+    text = unparse(value)
+    return "angular_velocity" in text or text in names
+
+
+@suspicion
+def replaced(tree: ast.AST) -> Iterator[Suspect]:
+    for function in reads_rates(tree):
+        for node, name, value in _sums(function):
+            text = unparse(value)
+            if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
+                yield (
+                    node.lineno,
+                    About.GYROSCOPE,
+                    f"{unparse(node)[:70]} forgets what was turned before: the steps are added up, {name} += ...",
+                )
 
 
 def _made_of(tree: ast.AST, value: ast.expr, lists: set[str]) -> list[ast.expr]:
@@ -326,31 +352,24 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
                 yield unparse(node.func).rpartition(".")[0]
 
 
-def signs(tree: ast.AST) -> Iterator[Suspect]:
-    """Find rates, or times, that are added up with a wrong sign."""
+@suspicion
+def jumps(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading that is brought back into one turn."""
     for function in reads_rates(tree):
-        values = assigned_once(function)
-        for node, name, value in _sums(function):
-            if not _adds(node, name):
+        names = {name for _, name, _ in _sums(function)}
+        for node in walk(function):
+            target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
+            if not isinstance(node, ast.Assign | ast.AugAssign) or target is None or unparse(target) not in names:
                 continue
-            whole = expanded(value, values)
-            for each in nodes_of(whole, ast.BinOp):
-                if not isinstance(each.op, ast.Sub):
-                    continue
-                left, right = unparse(each.left), unparse(each.right)
-                if EARLIER.search(left) and not EARLIER.search(right) and "stamp" in right:
-                    yield (
-                        node.lineno,
-                        "gyroscope",
-                        f"the time {unparse(each)[:60]} is negative: it is the later stamp minus the one before",
-                    )
-            sign = _sign(whole) * (-1 if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) else 1)
-            if sign < 0:
+            wraps = bool(called(node.value) & WRAPS) or isinstance(getattr(node, "op", None), ast.Mod)
+            wraps |= any(isinstance(each, ast.BinOp) and isinstance(each.op, ast.Mod) for each in walk(node.value))
+            wraps |= isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in unparse(node.value)
+            if wraps:
                 yield (
                     node.lineno,
-                    "gyroscope",
-                    f"{unparse(node)[:70]} takes the rate with a minus sign: a turn to the left has a positive "
-                    "rate and makes the heading larger",
+                    About.GYROSCOPE,
+                    f"{unparse(node)[:70]} makes the heading jump back, so it never reaches a full turn, 2 pi: add "
+                    "up without a limit",
                 )
 
 
@@ -366,16 +385,3 @@ def _sign(value: ast.expr) -> int:
         case ast.BinOp(left=left, op=ast.Add() | ast.Mult() | ast.Div(), right=right):
             return _sign(left) + _sign(right)
     return 1
-
-
-LOOKS = (
-    parts_of_times,
-    rates_in_degrees,
-    biases,
-    signs,
-    wrong_fields,
-    turns_of_360,
-    fixed_times,
-    replaced,
-    jumps,
-)

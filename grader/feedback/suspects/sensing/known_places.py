@@ -6,16 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    called,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import assigned_once, expanded
 from gz_course.grader.feedback.suspects.steering.headings import SINES
 
@@ -41,6 +34,7 @@ def _calls(tree: ast.AST, names: frozenset[str] | set[str]) -> Iterator[ast.Call
             yield node
 
 
+@suspicion
 def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is compared with the last, or the first, known one, where nothing goes through all."""
     for function, call, name in kept(tree):
@@ -54,7 +48,7 @@ def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
                 which = "last" if index == "-1" else "first"
                 yield (
                     node.lineno,
-                    "same",
+                    About.SAME,
                     f"a new point is compared with {name}[{index}] only, the {which} one found, so a post that is seen "
                     f"again later counts again: compare it with all of {name}",
                 )
@@ -73,6 +67,7 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     return False
 
 
+@suspicion
 def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is compared with the known one nearest to the robot, not with the one nearest to it."""
     for function, call, name in kept(tree):
@@ -89,12 +84,13 @@ def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
             if of == name and keys and not own and chosen.lineno <= call.lineno:
                 yield (
                     chosen.lineno,
-                    "same",
+                    About.SAME,
                     f"{unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared "
                     f"with that one only: compare it with all of {name}",
                 )
 
 
+@suspicion
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a place that is new if few are known, where nothing compares it with those that are."""
     adding = {function.name for function, _, _ in kept(tree)}
@@ -113,12 +109,13 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
             if (any(each is call for each in done) and not compared) or (calls_it and id(node) not in inner):
                 yield (
                     node.lineno,
-                    "same",
+                    About.SAME,
                     f"{unparse(node.test)[:60]} decides by how many posts are known whether one is new: a post is "
                     f"new if its place is far from all places in {name}",
                 )
 
 
+@suspicion
 def rounded(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are the same if their rounded numbers are, or only if their numbers are equal."""
     for function, call, name in kept(tree):
@@ -140,19 +137,20 @@ def _equal(line: int, code: ast.expr, key: ast.expr) -> Iterator[Suspect]:
     if called(key) & ROUNDS or "//" in unparse(key):
         yield (
             line,
-            "same",
+            About.SAME,
             f"{text} keeps rounded numbers: points of one post near the border between two of them are rounded to "
             "different ones, so it counts again; compare distances with those that are known",
         )
     elif isinstance(key, ast.Tuple) and called(key) <= SINES:
         yield (
             line,
-            "same",
+            About.SAME,
             f"{text}: two measurements of one post are never equal to the last digit, so each counts again; compare "
             "distances with those that are known",
         )
 
 
+@suspicion
 def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are new as soon as one known place is far away, instead of all."""
     for function, call, name in kept(tree):
@@ -162,7 +160,7 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
                 if any(call in walk(each) for test in tests for each in test.body):
                     yield (
                         call.lineno,
-                        "same",
+                        About.SAME,
                         f"{unparse(call)[:50]} is done in the loop, for each known post that is far away: a post "
                         "is new only if all known ones are, which is known after the loop",
                     )
@@ -171,12 +169,13 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
                 if isinstance(inside, ast.GeneratorExp | ast.ListComp) and _far(inside.elt) and _guards(function, node):
                     yield (
                         node.lineno,
-                        "same",
+                        About.SAME,
                         f"{unparse(node)[:60]} holds as soon as one known post is far away: a post is new only if "
                         "all are, all(...)",
                     )
 
 
+@suspicion
 def near_all(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are new if they are near all known ones."""
     for function, call, name in kept(tree):
@@ -192,7 +191,7 @@ def near_all(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(inside.elt, ast.Compare) and _far(_turned_over(inside.elt)):
                 yield (
                     node.lineno,
-                    "same",
+                    About.SAME,
                     f"{unparse(test)[:60]} holds for a point that is near all known posts, and a post is new if "
                     "it is far from all: > in place of <",
                 )
@@ -221,6 +220,7 @@ def _guards(function: ast.AST, call: ast.Call) -> bool:
     return any(isinstance(node, ast.If) and node.test is call for node in walk(function))
 
 
+@suspicion
 def unturned(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are kept in a file in which nothing is turned."""
     if called(tree) & TURNS or any(
@@ -230,10 +230,7 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
     for _, call, _ in kept(tree):
         yield (
             call.lineno,
-            "unturned",
+            About.UNTURNED,
             f"{unparse(call)[:60]} keeps points as the camera sees them, and the robot turns: turn each by the "
             "heading at which it was seen",
         )
-
-
-LOOKS = (only_one_compared, nearest_one_compared, by_number, rounded, one_is_far, near_all, unturned)

@@ -7,16 +7,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    functions,
-    last_name,
-    left_early,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, functions, last_name, left_early, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 LEAST, MOST = 0.3, 2.5  # [m] ranges below and beyond which a node may leave out
 WIDE_ENDS, WIDE = 2, 0.7  # limits of a sector, and how far apart they are at least [rad]
@@ -28,6 +21,7 @@ def _steers(tree: ast.Module) -> bool:
     return "angular.z" in text and ".ranges" in text
 
 
+@suspicion
 def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
     """Find a smallest range that is an attribute, and begins again with no scan."""
     if not _steers(tree):
@@ -42,12 +36,13 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
             if name.startswith("self.") and others and all(each[0] == "__init__" for each in others):
                 yield (
                     node.lineno,
-                    "nearest range",
+                    About.NEAREST_RANGE,
                     f"{name} is the smallest range of all scans since the start, because nothing sets it back: begin "
                     "each scan with math.inf",
                 )
 
 
+@suspicion
 def list_of_all_scans(tree: ast.Module) -> Iterator[Suspect]:
     """Find a list of ranges that is an attribute, grows in each scan, and is never emptied."""
     if not _steers(tree):
@@ -68,7 +63,7 @@ def list_of_all_scans(tree: ast.Module) -> Iterator[Suspect]:
                     if what == "append" and grown in names and function.name != "__init__":
                         yield (
                             call.lineno,
-                            "nearest range",
+                            About.NEAREST_RANGE,
                             f"{unparse(call)[:60]} adds to {name}, which still holds the rays of all scans before: "
                             "nothing empties it, so begin each scan with an empty list",
                         )
@@ -93,6 +88,7 @@ def _smallest_so_far(function: ast.FunctionDef) -> Iterator[tuple[str, ast.stmt]
             yield name, node
 
 
+@suspicion
 def ends_at_the_first(tree: ast.Module) -> Iterator[Suspect]:
     """Find a search that ends at the first range that is smaller than its beginning."""
     if not _steers(tree):
@@ -104,12 +100,13 @@ def ends_at_the_first(tree: ast.Module) -> Iterator[Suspect]:
                 name = found[id(node)]
                 yield (
                     node.body[-1].lineno,
-                    "nearest range",
+                    About.NEAREST_RANGE,
                     f"break ends the search at the first ray that sets {name}: all rays must be compared to find the "
                     "nearest, so remove it",
                 )
 
 
+@suspicion
 def last_one(tree: ast.Module) -> Iterator[Suspect]:
     """Find a loop over the ranges that keeps each one in turn, and a use of what is left after it."""
     if not _steers(tree):
@@ -135,7 +132,7 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
                 if not inside and after and name not in kept:
                     yield (
                         target.lineno,
-                        "nearest range",
+                        About.NEAREST_RANGE,
                         f"{name} = {unparse(value)} is done for each ray that is valid, so after the loop it is "
                         f"the last of them, not the nearest: do it only if {unparse(value)} < {name}",
                     )
@@ -180,6 +177,7 @@ def _range_of(loop: ast.For) -> set[str]:
     return set()
 
 
+@suspicion
 def left_out(tree: ast.Module) -> Iterator[Suspect]:
     """Find ranges that count only beyond, or only up to, a distance at which a wall may well be."""
     if not _steers(tree):
@@ -199,7 +197,7 @@ def left_out(tree: ast.Module) -> Iterator[Suspect]:
                 how = f"{text} = {metres:g} m" if metres is not None and not isinstance(limit, ast.Constant) else text
                 yield (
                     limit.lineno,
-                    "left out nearer" if near else "left out farther",
+                    About.LEFT_OUT_NEARER if near else About.LEFT_OUT_FARTHER,
                     f"ranges {'below' if near else 'beyond'} {how} are left out: a wall may well be there, so compare "
                     f"with {'range_min' if near else 'range_max'} of the scan",
                 )
@@ -250,6 +248,3 @@ def _bounds(node: ast.Compare) -> Iterator[tuple[ast.expr, bool, ast.expr]]:
             more = isinstance(operation, ast.Gt | ast.GtE)
             yield left, more, right
             yield right, not more, left
-
-
-LOOKS = (kept_from_scan_to_scan, list_of_all_scans, ends_at_the_first, last_one, left_out)

@@ -10,7 +10,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, calls, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, calls, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
@@ -26,6 +28,7 @@ def _arrays(tree: ast.AST) -> set[str]:
     return {unparse(target) for target, value in assigned(tree) if called(value) & {"imgmsg_to_cv2", "reshape"}}
 
 
+@suspicion
 def shapes(tree: ast.AST) -> Iterator[Suspect]:
     """Find a shape whose first number is taken for the width."""
     for node in nodes_of(tree, ast.Assign):
@@ -38,14 +41,14 @@ def shapes(tree: ast.AST) -> Iterator[Suspect]:
                 if ACROSS.search(first) and DOWN.search(second):
                     yield (
                         node.lineno,
-                        "picture",
+                        About.PICTURE,
                         f"{unparse(node)[:70]} takes the height for the width: {RIGHT}",
                     )
     for target, value in assigned(tree):
         if isinstance(value, ast.Subscript) and _is_shape(value.value):
             name, index = unparse(target).lower(), unparse(value.slice)
             if (index == "0" and ACROSS.search(name)) or (index == "1" and DOWN.search(name)):
-                yield value.lineno, "picture", f"{name} is {unparse(value)}, but {RIGHT}"
+                yield value.lineno, About.PICTURE, f"{name} is {unparse(value)}, but {RIGHT}"
 
 
 def _is_shape(value: ast.expr) -> bool:
@@ -56,6 +59,7 @@ def _is_shape(value: ast.expr) -> bool:
     )
 
 
+@suspicion
 def indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find a picture that is asked for [column, row]."""
     arrays = _arrays(tree)
@@ -65,9 +69,10 @@ def indices(tree: ast.AST) -> Iterator[Suspect]:
         if isinstance(node.slice, ast.Tuple) and len(node.slice.elts) >= 2:
             first, second = (unparse(each).lower() for each in node.slice.elts[:2])
             if COLUMN.search(first) and ROW.search(second):
-                yield node.lineno, "picture", f"{unparse(node)[:60]}: the row comes first, picture[row, column]"
+                yield node.lineno, About.PICTURE, f"{unparse(node)[:60]}: the row comes first, picture[row, column]"
 
 
+@suspicion
 def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
     """Find `columns, rows = np.nonzero(mask)`, which returns the rows first."""
     for node in walk(tree):
@@ -81,12 +86,13 @@ def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
         if COLUMNS.search(unparse(first).lower()) and ROWS.search(unparse(second).lower()):
             yield (
                 node.lineno,
-                "picture",
+                About.PICTURE,
                 f"{unparse(node)[:70]} takes the rows for the columns: an array is [row, column], so "
                 f"{last_name(call.func)}() returns the rows first",
             )
 
 
+@suspicion
 def middles(tree: ast.AST) -> Iterator[Suspect]:
     """Find the middle of the columns that is made of the rows, or of the wrong numbers of camera_info."""
     for target, value in assigned(tree):
@@ -94,16 +100,17 @@ def middles(tree: ast.AST) -> Iterator[Suspect]:
         if not re.search(r"middle|centre|center|\bcx\b|_cx\b", name):
             continue
         if re.search(r"\bheight\b.* / 2|\.shape\[0\].* / 2", text) and "width" not in text:
-            yield value.lineno, "picture", f"{name} is made of the height: the middle of the columns is cx = k[2]"
+            yield value.lineno, About.PICTURE, f"{name} is made of the height: the middle of the columns is cx = k[2]"
         found = re.fullmatch(r"\w+\.[kK]\[(\d)\]", text)
         if found and found[1] in "5" and not re.search("y|row", name):
             yield (
                 value.lineno,
-                "picture",
+                About.PICTURE,
                 f"{name} is {text}, the middle row, cy: the middle of the columns is cx = k[2]",
             )
 
 
+@suspicion
 def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
     """Find the mean of a rectangle of a picture of depths, which a single inf makes inf."""
     arrays = _arrays(tree)
@@ -115,12 +122,13 @@ def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
         if unparse(given.value) in arrays and any(isinstance(each, ast.Slice) for each in parts):
             yield (
                 call.lineno,
-                "depth",
+                About.DEPTH,
                 f"{unparse(call)[:70]} is inf as soon as one of these pixels is inf, where nothing is near enough: "
                 "take the red pixels only, and leave out what is not finite",
             )
 
 
+@suspicion
 def cropped(tree: ast.AST) -> Iterator[Suspect]:
     """Find a picture whose first columns are cut off, in a file that never adds their number again."""
     for target, value in assigned(tree):
@@ -133,12 +141,13 @@ def cropped(tree: ast.AST) -> Iterator[Suspect]:
         if first.isdigit() and int(first) and of_picture and not again.search(unparse(tree)):
             yield (
                 value.lineno,
-                "picture",
+                About.PICTURE,
                 f"{unparse(target)} begins at column {first} of the picture, so its column 0 is column {first}: "
                 f"add {first} to each column before cx is subtracted",
             )
 
 
+@suspicion
 def overflows(tree: ast.AST) -> Iterator[Suspect]:
     """Find the channel of a picture of 8 bits that is multiplied, added or subtracted as it is."""
     pictures = {
@@ -157,7 +166,7 @@ def overflows(tree: ast.AST) -> Iterator[Suspect]:
             if (unparse(side) in channels or _is_channel(side, pictures)) and (whole or both):
                 yield (
                     node.lineno,
-                    "overflow",
+                    About.OVERFLOW,
                     f"{unparse(node)[:60]} overflows, because a picture has numbers of 8 bits (2 * 200 is 144): "
                     "convert it first, .astype(int)",
                 )
@@ -166,6 +175,3 @@ def overflows(tree: ast.AST) -> Iterator[Suspect]:
 
 def _is_channel(value: ast.expr, pictures: set[str]) -> bool:
     return isinstance(value, ast.Subscript) and unparse(value.value) in pictures
-
-
-LOOKS = (shapes, indices, unpacked_indices, middles, means_of_depths, cropped, overflows)

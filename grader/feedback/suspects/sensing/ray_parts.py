@@ -6,12 +6,15 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 RAYS = 720.0
 OTHER = {"left": "right", "right": "left"}
 
 
+@suspicion
 def other_side(tree: ast.Module) -> Iterator[Suspect]:
     """Find a part for one side that looks to the other, in a scan that begins behind the robot."""
     if ".ranges" not in unparse(tree):
@@ -31,7 +34,7 @@ def other_side(tree: ast.Module) -> Iterator[Suspect]:
             if (start + end) * (1 if side == "left" else -1) <= -80 and end > start:
                 yield (
                     node.lineno,
-                    f"part {side}",
+                    About.PART.of(side),
                     f"{unparse(node)[:60]} is taken for the {side}, and looks to the {OTHER[side]}, from "
                     f"{start:.0f} to {end:.0f} degrees: angle_min is -pi, so ray 0 looks behind, the ray at a quarter "
                     "to the right, at a half ahead and at three quarters to the left",
@@ -69,6 +72,3 @@ class _Lengths(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         return ast.Constant(value=RAYS) if unparse(node.func) == "len" else node
-
-
-LOOKS = (other_side,)

@@ -5,11 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
+
+BEFORE = ("farthest", "feedback", "known_places")
 
 COPIES = frozenset({"list", "tuple", "array", "asarray"})
 
 
+@suspicion
 def by_number(tree: ast.AST) -> Iterator[Suspect]:
     """Find a ray, or a slice of rays, that is chosen by a number in the program."""
     names = {
@@ -24,7 +29,7 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
         if _numbered(node.slice):
             yield (
                 node.lineno,
-                "ray",
+                About.RAY,
                 f"{unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
                 "[rad], and 0 is ahead only if angle_min is 0",
             )
@@ -46,6 +51,7 @@ def _numbered(index: ast.expr) -> bool:
     return not names and any(isinstance(each, ast.Constant) and isinstance(each.value, int) for each in inside)
 
 
+@suspicion
 def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
     whole = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith(".ranges")}
     for node in nodes_of(tree, ast.Call):
@@ -54,10 +60,7 @@ def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
             if (text.endswith(".ranges") or text in whole) and not node.keywords:
                 yield (
                     node.lineno,
-                    "ray",
+                    About.RAY,
                     f"{unparse(node)[:60]} is the nearest in any direction, and includes ranges that are "
                     "not valid: choose the rays by their bearing, and those between range_min and range_max",
                 )
-
-
-LOOKS = (by_number, smallest_of_all)

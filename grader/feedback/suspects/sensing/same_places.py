@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     calls,
@@ -18,6 +17,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.known_places import kept
 
 ONE_NUMBER = re.compile(r"lambda (\w+): (?:abs\()?\1\[[01]\]\)?|(?:operator\.)?itemgetter\([01]\)")
@@ -27,6 +28,25 @@ FARTHEST, NEAREST = 1.5, 0.05  # [m] limits beyond which no sensible rule for th
 Loop = ast.For | ast.comprehension
 
 
+@suspicion
+def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the smallest of known places by their first number, in place of their distance."""
+    names = {name for _, _, name in kept(tree)}
+    for call, name in calls(tree):
+        if name not in ("min", "sorted") or not call.args or unparse(call.args[0]) not in names:
+            continue
+        key = next((each.value for each in call.keywords if each.arg == "key"), None)
+        by = None if key is None else ONE_NUMBER.fullmatch(unparse(key))
+        if key is None or by:
+            which = "second numbers, y," if by and "1" in by[0][-3:] else "first numbers, x,"
+            yield (
+                call.lineno,
+                About.NEAREST,
+                f"{unparse(call)[:60]} compares the {which} and not distances: give it key=lambda post: hypot(*post)",
+            )
+
+
+@suspicion
 def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
     """Find points that are the same as soon as one of their coordinates is about the same."""
     if not any(kept(tree)):
@@ -51,27 +71,10 @@ def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
         if far or near:
             yield (
                 node.lineno,  # type: ignore[attr-defined]
-                "same",
+                About.SAME,
                 f"{unparse(node)[:80]}: so two posts are the same as soon as their x or their y is about the same; "
                 "compare the distance between them, hypot(x - a, y - b)",
             )
-
-
-def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
-    """Find `abs((x - a) + (y - b))`, in which two differences may cancel each other."""
-    for function in {each.name: each for each, _, _ in kept(tree)}.values():
-        for call, name in calls(function):
-            match call.args:
-                case [ast.BinOp(op=ast.Add(), left=ast.BinOp(op=ast.Sub()), right=ast.BinOp(op=ast.Sub()))] if name in (
-                    "abs",
-                    "fabs",
-                ):
-                    yield (
-                        call.lineno,
-                        "same",
-                        f"{unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
-                        "posts at other places are taken for one: compare the distance, hypot(x - a, y - b)",
-                    )
 
 
 def _off(node: ast.AST | None, far: bool) -> bool:
@@ -86,25 +89,22 @@ def _off(node: ast.AST | None, far: bool) -> bool:
     return size == (False, True) and greater != far and isinstance(node.ops[0], ast.Gt | ast.GtE | ast.Lt | ast.LtE)
 
 
-def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
-    """Find known places of which one coordinate only is compared."""
-    names = {name for _, _, name in kept(tree)}
-    for node in walk(tree):
-        loops: list[Loop] = [node] if isinstance(node, ast.For) else [*getattr(node, "generators", [])]
-        for loop in loops:
-            if unparse(loop.iter) not in names:
-                continue
-            used = {unparse(each) for each in _read(node, loop) if isinstance(each, ast.Name | ast.Subscript)}
-            both = _coordinates(loop.target)
-            alone = [each for each in both if each in used]
-            compared = [each for each in _read(node, loop) if isinstance(each, ast.Compare)]
-            if len(alone) == 1 and unparse(loop.target) not in used and compared:
-                yield (
-                    compared[0].lineno,
-                    "same",
-                    f"{unparse(compared[0])[:60]} compares one coordinate only, and two posts may have the same: "
-                    "compare the distance between them, hypot(x - a, y - b)",
-                )
+@suspicion
+def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `abs((x - a) + (y - b))`, in which two differences may cancel each other."""
+    for function in {each.name: each for each, _, _ in kept(tree)}.values():
+        for call, name in calls(function):
+            match call.args:
+                case [ast.BinOp(op=ast.Add(), left=ast.BinOp(op=ast.Sub()), right=ast.BinOp(op=ast.Sub()))] if name in (
+                    "abs",
+                    "fabs",
+                ):
+                    yield (
+                        call.lineno,
+                        About.SAME,
+                        f"{unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
+                        "posts at other places are taken for one: compare the distance, hypot(x - a, y - b)",
+                    )
 
 
 def _read(node: ast.AST, loop: Loop) -> Iterator[ast.AST]:
@@ -136,6 +136,54 @@ def _coordinates(target: ast.expr) -> list[str]:
     return [f"{target.id}[0]", f"{target.id}[1]"] if isinstance(target, ast.Name) else []
 
 
+@suspicion
+def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
+    """Find known places of which one coordinate only is compared."""
+    names = {name for _, _, name in kept(tree)}
+    for node in walk(tree):
+        loops: list[Loop] = [node] if isinstance(node, ast.For) else [*getattr(node, "generators", [])]
+        for loop in loops:
+            if unparse(loop.iter) not in names:
+                continue
+            used = {unparse(each) for each in _read(node, loop) if isinstance(each, ast.Name | ast.Subscript)}
+            both = _coordinates(loop.target)
+            alone = [each for each in both if each in used]
+            compared = [each for each in _read(node, loop) if isinstance(each, ast.Compare)]
+            if len(alone) == 1 and unparse(loop.target) not in used and compared:
+                yield (
+                    compared[0].lineno,
+                    About.SAME,
+                    f"{unparse(compared[0])[:60]} compares one coordinate only, and two posts may have the same: "
+                    "compare the distance between them, hypot(x - a, y - b)",
+                )
+
+
+@suspicion
+def one_measure(tree: ast.AST) -> Iterator[Suspect]:
+    """Find places whose distances from the robot are compared, or whose directions, and nothing else."""
+    for function in {each.name: each for each, _, _ in kept(tree)}.values():
+        measures = {name: _measures(function, tree, name) for name in ("distance", "direction")}
+        found = [
+            (node, name)
+            for node in nodes_of(function, ast.BinOp)
+            if isinstance(node.op, ast.Sub)
+            for name, known in measures.items()
+            if _is_measure(node.left, known, name) and _is_measure(node.right, known, name)
+        ]
+        if len({name for _, name in found}) != 1:
+            continue
+        node, name = found[0]
+        other = "in other directions" if name == "distance" else "farther away"
+        if _all_compared(function) == 1:
+            yield (
+                node.lineno,
+                About.SAME,
+                f"{unparse(node)[:60]} compares only the {name} of two posts as the robot sees them, so posts "
+                f"{other} with about the same {name} are taken for one: compare their places, hypot(x - a, y - b)",
+            )
+
+
+@suspicion
 def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
     """Find distances between places that are compared with a limit that is far too large, or far too small."""
     known = named_numbers(tree)
@@ -158,56 +206,10 @@ def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
                         what = "takes one post for several, because depth and heading have errors"
                     yield (
                         node.lineno,
-                        "same",
+                        About.SAME,
                         f"{unparse(node)[:60]} with {limit:g} m {what}: distances are in metres, and the posts "
                         "are thin",
                     )
-
-
-def emptied(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a list whose length is published, and that is emptied in the run."""
-    spoken = {
-        unparse(call.args[0])
-        for each, name in calls(tree)
-        if name == "publish"
-        for call, inner in calls(each)
-        if inner == "len" and call.args and isinstance(call.args[0], ast.Attribute)
-    }
-    for function in functions(tree):
-        if function.name == "__init__":
-            continue
-        for target, value in assigned(function):
-            if unparse(target) in spoken and isinstance(value, ast.List) and not value.elts:
-                yield (
-                    value.lineno,
-                    "same",
-                    f"{unparse(target)} is emptied here again and again, and its length is published: count the "
-                    "posts of the whole turn",
-                )
-
-
-def one_measure(tree: ast.AST) -> Iterator[Suspect]:
-    """Find places whose distances from the robot are compared, or whose directions, and nothing else."""
-    for function in {each.name: each for each, _, _ in kept(tree)}.values():
-        measures = {name: _measures(function, tree, name) for name in ("distance", "direction")}
-        found = [
-            (node, name)
-            for node in nodes_of(function, ast.BinOp)
-            if isinstance(node.op, ast.Sub)
-            for name, known in measures.items()
-            if _is_measure(node.left, known, name) and _is_measure(node.right, known, name)
-        ]
-        if len({name for _, name in found}) != 1:
-            continue
-        node, name = found[0]
-        other = "in other directions" if name == "distance" else "farther away"
-        if _all_compared(function) == 1:
-            yield (
-                node.lineno,
-                "same",
-                f"{unparse(node)[:60]} compares only the {name} of two posts as the robot sees them, so posts "
-                f"{other} with about the same {name} are taken for one: compare their places, hypot(x - a, y - b)",
-            )
 
 
 def _measures(function: ast.FunctionDef, tree: ast.AST, name: str) -> set[str]:
@@ -239,6 +241,30 @@ def _all_compared(function: ast.FunctionDef) -> int:
     )
 
 
+@suspicion
+def emptied(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a list whose length is published, and that is emptied in the run."""
+    spoken = {
+        unparse(call.args[0])
+        for each, name in calls(tree)
+        if name == "publish"
+        for call, inner in calls(each)
+        if inner == "len" and call.args and isinstance(call.args[0], ast.Attribute)
+    }
+    for function in functions(tree):
+        if function.name == "__init__":
+            continue
+        for target, value in assigned(function):
+            if unparse(target) in spoken and isinstance(value, ast.List) and not value.elts:
+                yield (
+                    value.lineno,
+                    About.SAME,
+                    f"{unparse(target)} is emptied here again and again, and its length is published: count the "
+                    "posts of the whole turn",
+                )
+
+
+@suspicion
 def of_one_picture(tree: ast.AST) -> Iterator[Suspect]:
     """Find a number that is published, and that is how long a list is which each picture makes anew."""
     spoken = {unparse(each.value) for each in nodes_of(tree, ast.keyword) if each.arg == "data"}
@@ -253,36 +279,7 @@ def of_one_picture(tree: ast.AST) -> Iterator[Suspect]:
             if name in spoken and name.startswith("self.") and of and unparse(of[0].args[0]) in made:
                 yield (
                     value.lineno,
-                    "one picture",
+                    About.ONE_PICTURE,
                     f"{name} = {unparse(value)[:50]} counts {unparse(of[0].args[0])}, which begins empty in "
                     "each picture: count the posts of the whole turn",
                 )
-
-
-def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
-    """Find the smallest of known places by their first number, in place of their distance."""
-    names = {name for _, _, name in kept(tree)}
-    for call, name in calls(tree):
-        if name not in ("min", "sorted") or not call.args or unparse(call.args[0]) not in names:
-            continue
-        key = next((each.value for each in call.keywords if each.arg == "key"), None)
-        by = None if key is None else ONE_NUMBER.fullmatch(unparse(key))
-        if key is None or by:
-            which = "second numbers, y," if by and "1" in by[0][-3:] else "first numbers, x,"
-            yield (
-                call.lineno,
-                "nearest",
-                f"{unparse(call)[:60]} compares the {which} and not distances: give it key=lambda post: hypot(*post)",
-            )
-
-
-LOOKS = (
-    smallest_x,
-    each_coordinate,
-    cancelling_differences,
-    one_coordinate,
-    one_measure,
-    wrong_limits,
-    emptied,
-    of_one_picture,
-)

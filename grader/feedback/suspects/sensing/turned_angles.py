@@ -6,10 +6,13 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import reads_rates
 
 
+@suspicion
 def orientations(tree: ast.AST) -> Iterator[Suspect]:
     """Find the orientation in a message of a gyroscope where its rates are read nowhere."""
     heard = {
@@ -21,9 +24,10 @@ def orientations(tree: ast.AST) -> Iterator[Suspect]:
         found = [node for node in nodes_of(function, ast.Attribute) if node.attr == "orientation"]
         for node in found[:1]:
             said = "the angle of an orientation jumps from pi to -pi and never comes to 2 pi: add up angular_velocity.z"
-            yield node.lineno, "gyroscope", f"{said} * time"
+            yield node.lineno, About.GYROSCOPE, f"{said} * time"
 
 
+@suspicion
 def set_back(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle that is set to a number just before something is added to it, in each message."""
     for function in reads_rates(tree):
@@ -40,7 +44,7 @@ def set_back(tree: ast.AST) -> Iterator[Suspect]:
                         if made is not None and unparse(target) not in once:
                             yield (
                                 made.lineno,
-                                "gyroscope",
+                                About.GYROSCOPE,
                                 f"{unparse(made)} is done before each step is added, so what was turned before is "
                                 "forgotten: set it once",
                             )
@@ -52,6 +56,7 @@ def _block(node: ast.AST, name: str) -> list[ast.stmt]:
     return block if isinstance(block, list) else []
 
 
+@suspicion
 def steps_of_timers(tree: ast.AST) -> Iterator[Suspect]:
     """Find a sum in the callback of a timer that counts another time for each call than the period of the timer."""
     known = named_numbers(tree)
@@ -71,10 +76,7 @@ def steps_of_timers(tree: ast.AST) -> Iterator[Suspect]:
             if step and abs(step - period) > 1e-6:
                 yield (
                     node.lineno,
-                    "gyroscope",
+                    About.GYROSCOPE,
                     f"{unparse(node)[:60]} counts {step:g} s for each call, and the timer calls {function.name} "
                     f"every {period:g} s",
                 )
-
-
-LOOKS = (orientations, set_back, steps_of_timers)

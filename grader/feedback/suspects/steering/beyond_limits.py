@@ -11,16 +11,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    calls,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.steering.reaching_values import ReachingValues, UnknownValueError
 from gz_course.grader.feedback.suspects.steering.speed_limits import LIMITING, limit_names, reads_limit
 
@@ -40,6 +33,7 @@ class Rate:
         self.most, self.limited, self.found = most, limited, found
 
 
+@suspicion
 def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
     """Find the one value of angular.z that may be beyond its limit, in a node that steers by a lidar."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
@@ -59,9 +53,10 @@ def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
     limits = any(number(node, {}) == LIMIT for node in nodes_of(tree, ast.Constant))
     if len(found) == 1 and (limits or NOWHERE not in next(iter(found))[1]):
         line, said = found.pop()
-        yield line, "limit", said
+        yield line, About.LIMIT, said
 
 
+@suspicion
 def limited_on_one_side(tree: ast.Module) -> Iterator[Suspect]:
     """Find `if turning > 1.5: turning = 1.5` without the other side."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
@@ -78,7 +73,7 @@ def limited_on_one_side(tree: ast.Module) -> Iterator[Suspect]:
                 other = other or re.search(rf"(max|min|clip|clamp|limit\w*|saturate)\([^\n)]*\b{name}\b", text)
                 if number(limit, known) == LIMIT and not other:
                     said = f"if {unparse(node.test)[:50]} limits it on one side only, and it may be below"
-                    yield node.lineno, "limit", f"{said} -{unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
+                    yield node.lineno, About.LIMIT, f"{said} -{unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
 
 
 def _sent(tree: ast.Module, name: str) -> Iterator[tuple[ast.expr, ast.expr, ast.FunctionDef]]:
@@ -190,6 +185,7 @@ AT_MOST, SHARE, AT_LEAST, FREE = "speed_limit", "share", "1 at least", "free"
 Speed = str | float | Found
 
 
+@suspicion
 def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
     """Find the one value of linear.x that may be beyond the parameter speed_limit."""
     if "speed_limit" not in unparse(tree) or "LaserScan" not in unparse(tree):
@@ -207,7 +203,7 @@ def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
         return
     if len(found) == 1:
         line, said = found.pop()
-        yield line, "speed limit", said
+        yield line, About.SPEED_LIMIT, said
 
 
 class Speeds:
@@ -338,6 +334,3 @@ def _chosen(small: bool, one: Speed, other: Speed) -> Speed:
     if not small and numbers and numbers[0] <= 0:
         return other if one is numbers[0] else one
     return FREE
-
-
-LOOKS = (rates_beyond, limited_on_one_side, speeds_beyond)

@@ -8,33 +8,22 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    called,
-    calls,
-    functions,
-    is_none,
-    nodes_of,
-    set_to,
-    unparse,
-    walk,
-)
-from gz_course.grader.feedback.suspects.steering import endless_drives
+from gz_course.grader.feedback.facts.syntax import assigned, functions, is_none, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.steering.endless_drives import (
     TIMES,
     asked_for_none,
     in_init,
     is_zero,
     publish_calls,
-    set_speeds,
 )
+from gz_course.grader.feedback.suspects.steering.plain_drives import of_a_plain_drive, set_speeds
 
 STEPS = 5  # names followed at most  # names followed at most
-OTHER_TASKS = frozenset({"ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform"})
 PLACES = ("pose.position.x", "pose.position.y", "pose.orientation.", "position.x", "position.y", "twist.linear.")
 
 
+@of_a_plain_drive
 def by_place(tree: ast.AST) -> Iterator[Suspect]:
     """Find a comparison of a place or a heading with a number, in a file that compares no time."""
     values = set_to(tree)
@@ -56,7 +45,7 @@ def by_place(tree: ast.AST) -> Iterator[Suspect]:
                 )
                 yield (
                     node.lineno,
-                    "by_place",
+                    About.BY_PLACE,
                     f"{unparse(node)[:60]} asks for {what} ({place[:50]}) and not for the time that has "
                     f"passed{coordinate}",
                 )
@@ -89,6 +78,7 @@ def _place(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> str
     return ""
 
 
+@of_a_plain_drive
 def set_again(tree: ast.AST) -> Iterator[Suspect]:
     """Find a start that is set back to None, or set again when the time is over."""
     init = in_init(tree)
@@ -103,7 +93,7 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
         if name in starts and "." in name and id(value) not in init and is_none(value):
             yield (
                 target.lineno,
-                "again",
+                About.AGAIN,
                 f"{name} = None makes the next call take itself for the first one, so a new drive begins: leave "
                 f"{name} as it is when you stop",
             )
@@ -115,7 +105,7 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
                     continue
                 yield (
                     target.lineno,
-                    "again",
+                    About.AGAIN,
                     f"{name} = {unparse(value)[:40]} stands below  if {unparse(block.test)[:60]}:, so it is "
                     "set again when the time is over, and a new drive begins: set it once, if it is None",
                 )
@@ -137,6 +127,7 @@ def _late(test: ast.expr, start: str, tree: ast.AST) -> bool:
     return False
 
 
+@of_a_plain_drive
 def falls_through(tree: ast.AST) -> Iterator[Suspect]:
     """Find a stop that is published below a condition, with the drive behind it in the same call."""
     for function in functions(tree):
@@ -149,7 +140,7 @@ def falls_through(tree: ast.AST) -> Iterator[Suspect]:
             if stops and drives and behind:
                 yield (
                     stops[0].lineno,
-                    "again",
+                    About.AGAIN,
                     f"the stop is published here, and then the same call goes on to line {behind[0].lineno}, which "
                     "publishes the drive: return after the stop, or put the drive into an else",
                 )
@@ -159,6 +150,7 @@ def _returns(block: ast.If) -> bool:
     return isinstance(block.body[-1], ast.Return | ast.Raise | ast.Continue | ast.Break)
 
 
+@of_a_plain_drive
 def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time that is compared with == and a number of seconds: it holds for a moment, or for a second."""
     values = set_to(tree)
@@ -169,18 +161,6 @@ def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
         if late and any(_reads_time(side, values, STEPS) for side in sides):
             yield (
                 node.lineno,
-                "again",
+                About.AGAIN,
                 f"{unparse(node)[:60]} holds for a moment and then no more: >= holds from then on",
             )
-
-
-def of_a_plain_drive(tree: ast.AST) -> Iterator[Suspect]:
-    """Look into a file that sends velocities and hears of nothing but odometry: it drives for a time, to no goal."""
-    heard = {unparse(call.args[0]) for call, name in calls(tree) if name == "create_subscription" and call.args}
-    if not any(True for _ in set_speeds(tree)) or heard - {"Odometry", "Clock"} or called(tree) & OTHER_TASKS:
-        return
-    for look in (*endless_drives.LOOKS, by_place, set_again, falls_through, for_a_moment):
-        yield from look(tree)
-
-
-LOOKS = (of_a_plain_drive,)

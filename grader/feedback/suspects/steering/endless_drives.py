@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     calls,
@@ -19,6 +18,8 @@ from gz_course.grader.feedback.facts.syntax import (
     walk,
 )
 from gz_course.grader.feedback.slips.clocks.time_units import unit_of
+from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects.steering.plain_drives import of_a_plain_drive, set_speeds
 
 LONG = 8.0  # [s] more is no drive of a run
 TIMES = frozenset({"now", "get_clock", "stamp", "time", "monotonic", "perf_counter", "sleep", "nanoseconds", "clock"})
@@ -45,11 +46,6 @@ def is_zero(value: ast.expr) -> bool:
     return isinstance(value, ast.Constant) and value.value == 0
 
 
-def set_speeds(node: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
-    """Yield the assignments of `linear.x`: the whole target, and its value."""
-    return ((target, value) for target, value in assigned(node) if unparse(target).endswith(".linear.x"))
-
-
 def publish_calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
     """Yield each publish() with the code of the message."""
     for call, name in calls(node):
@@ -57,22 +53,7 @@ def publish_calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
             yield call, unparse(call.args[0])
 
 
-def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a file that neither reads a clock, nor compares anything, nor cancels, nor has a second timer."""
-    names = {last_name(node) for node in walk(tree)}
-    asks = any(isinstance(node, ast.Compare) for function in functions(tree) for node in walk(function))
-    timers = [call for call, name in calls(tree) if name == "create_timer"]
-    if names & TIMES or asks or "cancel" in names or len(timers) != 1:
-        return
-    for target, _ in set_speeds(tree):
-        yield (
-            target.lineno,
-            "endless",
-            "nothing in the file asks how much time has passed; the number of calls does not say it",
-        )
-        return
-
-
+@of_a_plain_drive
 def computed_once(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time that is computed only where the start is set, and compared in every call."""
     init, values = in_init(tree), set_to(tree)
@@ -87,23 +68,13 @@ def computed_once(tree: ast.AST) -> Iterator[Suspect]:
             if name != start and not others and _has_difference(value) and _compared(tree, name):
                 yield (
                     target.lineno,
-                    "endless",
+                    About.ENDLESS,
                     f"{name} is computed only here, below  if {unparse(block.test)}:, which holds once; compute "
                     "it in every call",
                 )
 
 
-def _has_difference(value: ast.expr) -> bool:
-    return any(isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) for node in walk(value))
-
-
-def _compared(tree: ast.AST, name: str) -> bool:
-    return any(
-        isinstance(node, ast.Compare) and any(unparse(each) == name for each in (node.left, *node.comparators))
-        for node in walk(tree)
-    )
-
-
+@of_a_plain_drive
 def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Twist that is made once, filled below a condition in a callback, and never set back to zero."""
     nodes = in_init(tree)
@@ -131,13 +102,25 @@ def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
                 if once and not again and not zero and not is_zero(value):
                     yield (
                         target.lineno,
-                        "endless",
+                        About.ENDLESS,
                         f"{message} is one message for all calls and keeps what is set here, below  "
                         f"if {unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 "
                         "then, or make a new Twist() in every call",
                     )
 
 
+def _has_difference(value: ast.expr) -> bool:
+    return any(isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub) for node in walk(value))
+
+
+def _compared(tree: ast.AST, name: str) -> bool:
+    return any(
+        isinstance(node, ast.Compare) and any(unparse(each) == name for each in (node.left, *node.comparators))
+        for node in walk(tree)
+    )
+
+
+@of_a_plain_drive
 def refreshed(tree: ast.AST) -> Iterator[Suspect]:
     """Find a start that another callback sets anew each time it is called."""
     starts = {
@@ -155,12 +138,13 @@ def refreshed(tree: ast.AST) -> Iterator[Suspect]:
                 if name in starts - own and any(last_name(each) in TIMES for each in walk(value)) and values[name]:
                     yield (
                         statement.lineno,
-                        "endless",
+                        About.ENDLESS,
                         f"{name} = {unparse(value)[:40]} sets the start again in every call of {function.name}, so "
                         "the time since then stays short: set it once, if it is None",
                     )
 
 
+@of_a_plain_drive
 def default_messages(tree: ast.AST) -> Iterator[Suspect]:
     """Find a message that is the default of a parameter, and is filled below a condition and published."""
     for function in functions(tree):
@@ -170,12 +154,36 @@ def default_messages(tree: ast.AST) -> Iterator[Suspect]:
             if filled and isinstance(default, ast.Call):
                 yield (
                     function.lineno,
-                    "endless",
+                    About.ENDLESS,
                     f"{argument.arg}={unparse(default)} is made once, when {function.name} is defined, and keeps "
                     f"what line {filled[0].lineno} sets from call to call: make the message in the function",
                 )
 
 
+@of_a_plain_drive
+def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a speed that is set in every call, behind a condition that neither leaves nor sets it back."""
+    for function in (each for each in functions(tree) if each.name not in ("__init__", "main")):
+        for i, statement in enumerate(function.body):
+            speeds = [(t, v) for t, v in set_speeds(statement) if isinstance(statement, ast.Assign) and not _varies(v)]
+            before = [each for each in function.body[:i] if isinstance(each, ast.If) and not asked_for_none(each.test)]
+            after = function.body[i + 1 :]
+            if not speeds or is_zero(speeds[0][1]) or not before or any(_leaves(each) for each in before):
+                continue
+            if not any(True for each in after for _ in publish_calls(each)):
+                continue
+            if any(isinstance(each, ast.If) and _may_stop(each) for each in after):
+                continue
+            yield (
+                statement.lineno,
+                About.ENDLESS,
+                f"{unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
+                "it, so every call sets this speed; indent it, or return where the time is over",
+            )
+            return
+
+
+@of_a_plain_drive
 def long_times(tree: ast.AST) -> Iterator[Suspect]:
     """Find a time in seconds that is compared with far more of them than a drive takes."""
     numbers, values = named_numbers(tree), set_to(tree)
@@ -194,12 +202,30 @@ def long_times(tree: ast.AST) -> Iterator[Suspect]:
             if limit and limit > LONG and unit_of(one, values, numbers) == 1.0:
                 yield (
                     node.lineno,
-                    "endless",
+                    About.ENDLESS,
                     f"{unparse(node)[:70]} compares a time in seconds with {limit:g}: that many seconds are longer "
                     "than the run",
                 )
 
 
+@of_a_plain_drive
+def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a file that neither reads a clock, nor compares anything, nor cancels, nor has a second timer."""
+    names = {last_name(node) for node in walk(tree)}
+    asks = any(isinstance(node, ast.Compare) for function in functions(tree) for node in walk(function))
+    timers = [call for call, name in calls(tree) if name == "create_timer"]
+    if names & TIMES or asks or "cancel" in names or len(timers) != 1:
+        return
+    for target, _ in set_speeds(tree):
+        yield (
+            target.lineno,
+            About.ENDLESS,
+            "nothing in the file asks how much time has passed; the number of calls does not say it",
+        )
+        return
+
+
+@of_a_plain_drive
 def not_read(tree: ast.AST) -> Iterator[Suspect]:
     """Find an attribute that a method sets to end something, and that nobody reads, or `__init__` alone."""
     for owner in nodes_of(tree, ast.ClassDef):
@@ -218,29 +244,7 @@ def not_read(tree: ast.AST) -> Iterator[Suspect]:
             who = (
                 f"only __init__ reads {name}, once, in line {readers[0].lineno}" if readers else f"nothing reads {name}"
             )
-            yield target.lineno, "endless", f"{name} = {unparse(value)} changes nothing: {who}"
-
-
-def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a speed that is set in every call, behind a condition that neither leaves nor sets it back."""
-    for function in (each for each in functions(tree) if each.name not in ("__init__", "main")):
-        for i, statement in enumerate(function.body):
-            speeds = [(t, v) for t, v in set_speeds(statement) if isinstance(statement, ast.Assign) and not _varies(v)]
-            before = [each for each in function.body[:i] if isinstance(each, ast.If) and not asked_for_none(each.test)]
-            after = function.body[i + 1 :]
-            if not speeds or is_zero(speeds[0][1]) or not before or any(_leaves(each) for each in before):
-                continue
-            if not any(True for each in after for _ in publish_calls(each)):
-                continue
-            if any(isinstance(each, ast.If) and _may_stop(each) for each in after):
-                continue
-            yield (
-                statement.lineno,
-                "endless",
-                f"{unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
-                "it, so every call sets this speed; indent it, or return where the time is over",
-            )
-            return
+            yield target.lineno, About.ENDLESS, f"{name} = {unparse(value)} changes nothing: {who}"
 
 
 def _varies(value: ast.expr) -> bool:
@@ -255,9 +259,3 @@ def _leaves(block: ast.If) -> bool:
 def _may_stop(block: ast.If) -> bool:
     """Return whether a block sets a speed, makes a new message, or leaves."""
     return _leaves(block) or any(True for _ in set_speeds(block)) or "Twist" in called(block)
-
-
-LOOKS = (
-    computed_once, kept_messages, refreshed, default_messages, outside_the_condition, long_times, no_time_at_all,
-    not_read,
-)  # fmt: skip

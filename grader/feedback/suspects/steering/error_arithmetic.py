@@ -6,12 +6,15 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, last_name, set_to, unparse, walk
+from gz_course.grader.feedback.facts.syntax import last_name, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 ROUNDS = frozenset({"int", "round", "floor", "ceil", "trunc", "rint"})
 ERROR = re.compile(r"(^|[._])(e|err|error|diff|difference|deviation|offset)\w*$", re.IGNORECASE)
 
 
+@suspicion
 def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
     """Find a difference of distances that is rounded to whole metres."""
     if not _steers(tree):
@@ -24,12 +27,13 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
                 if all(_is_difference(each) for each in values):
                     yield (
                         node.lineno,
-                        "whole metres",
+                        About.WHOLE_METRES,
                         f"{unparse(node)[:60]} is a whole number of metres: an error below 1 m, or 0.5 m, becomes "
                         "0; leave it as it is",
                     )
 
 
+@suspicion
 def divided(tree: ast.Module) -> Iterator[Suspect]:
     """Find a gain that is divided by the error instead of multiplied with it."""
     if not _steers(tree):
@@ -42,7 +46,7 @@ def divided(tree: ast.Module) -> Iterator[Suspect]:
                 if ERROR.search(unparse(error)) and values and all(_is_difference(each) for each in values):
                     yield (
                         node.lineno,
-                        "divided",
+                        About.DIVIDED,
                         f"{unparse(node)[:60]} divides by the error: the smaller the error is, the more the robot "
                         "turns; multiply the gain by it",
                     )
@@ -67,6 +71,3 @@ def _is_difference(value: ast.expr) -> bool:
 def _steers(tree: ast.Module) -> bool:
     text = unparse(tree)
     return "angular.z" in text and ".ranges" in text
-
-
-LOOKS = (whole_metres, divided)

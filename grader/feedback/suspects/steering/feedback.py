@@ -6,16 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    functions,
-    last_name,
-    nodes_of,
-    set_to,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, functions, last_name, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"})
 ERROR = re.compile(
@@ -63,6 +56,7 @@ def _range_of(loop: ast.For | ast.comprehension) -> str:
     return target.id if isinstance(target, ast.Name) and text.endswith(".ranges") else ""
 
 
+@suspicion
 def means(tree: ast.AST) -> Iterator[Suspect]:
     """Find the mean, or the median, of ranges in a node that steers, in place of the nearest of them."""
     if "angular.z" not in unparse(tree):
@@ -78,7 +72,7 @@ def means(tree: ast.AST) -> Iterator[Suspect]:
             if of in lists or (of.endswith("]") and of.partition("[")[0].endswith(".ranges")):
                 yield (
                     node.lineno,  # type: ignore[attr-defined]
-                    "mean",
+                    About.MEAN,
                     f"{unparse(node)[:60]} depends on all that those rays see, near and far: the distance from a "
                     "wall is that of its nearest point, min(...)",
                 )
@@ -92,6 +86,7 @@ def _summed(node: ast.BinOp) -> str:
     return ""
 
 
+@suspicion
 def added_commands(tree: ast.AST) -> Iterator[Suspect]:
     """Find a turning rate that is made by adding to the last one."""
     for function in functions(tree):
@@ -110,7 +105,7 @@ def added_commands(tree: ast.AST) -> Iterator[Suspect]:
             if kept and made:
                 yield (
                     node.lineno,
-                    "added",
+                    About.ADDED,
                     f"{unparse(node)[:60]} adds the correction to the last command, so it grows as long as the "
                     "error lasts: a correction is the whole angular.z, computed for each scan alone",
                 )
@@ -154,6 +149,7 @@ def _stored(function: Function, node: ast.AST, old: str, values: dict[str, ast.e
     return False
 
 
+@suspicion
 def integrals(tree: ast.AST) -> Iterator[Suspect]:
     """Find a sum of errors that a node that steers keeps from scan to scan."""
     if "angular.z" not in unparse(tree):
@@ -174,12 +170,13 @@ def integrals(tree: ast.AST) -> Iterator[Suspect]:
         if kept and ERROR.search(unparse(node)):
             yield (
                 node.lineno,  # type: ignore[attr-defined]
-                "integral",
+                About.INTEGRAL,
                 f"{unparse(node)[:60]} is an integral that nothing limits: it grows while the robot is far "
                 "away, and keeps it turning when it is near (wind-up); limit it, or leave it out",
             )
 
 
+@suspicion
 def kept_parameters(tree: ast.AST) -> Iterator[Suspect]:
     """Find a Parameter that __init__ keeps: other than its name says, it does not follow the node's parameter."""
     init = next((function for function in functions(tree) if function.name == "__init__"), None)
@@ -188,12 +185,13 @@ def kept_parameters(tree: ast.AST) -> Iterator[Suspect]:
         if isinstance(value, ast.Call) and last_name(value.func) == "get_parameter" and kept.startswith("self."):
             yield (
                 value.lineno,
-                "parameter",
+                About.PARAMETER,
                 f"{kept} = {unparse(value)[:60]} keeps a Parameter, which is a copy: its .value does not change "
                 "when the parameter is set",
             )
 
 
+@suspicion
 def added_setpoints(tree: ast.AST) -> Iterator[Suspect]:
     """Find a parameter that is added to a measured distance, where only the rest of the way could be meant."""
     given = set_to(tree)
@@ -208,7 +206,4 @@ def added_setpoints(tree: ast.AST) -> Iterator[Suspect]:
         for wanted, distance in (sides, sides[::-1]):
             if wanted in parameters and (MEASURED.search(distance) or distance in measured):
                 said = f"{unparse(node)[:60]}: what is left to drive is the difference, {distance} - {wanted}"
-                yield node.lineno, "setpoint", said
-
-
-LOOKS = (means, added_commands, integrals, kept_parameters, added_setpoints)
+                yield node.lineno, About.SETPOINT, said

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     calls,
@@ -17,6 +16,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 KEPT = re.compile(r"gap|desired|wanted|1\.2\b|keep|spacing|target_dist", re.IGNORECASE)
 MEASURED = re.compile(r"dist|hypot|range|length|separation", re.IGNORECASE)
@@ -27,76 +28,7 @@ def _speeds(tree: ast.AST) -> list[tuple[ast.expr, ast.expr]]:
     return [(target, value) for target, value in assigned(tree) if unparse(target).endswith("linear.x")]
 
 
-def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
-    """Find the gap minus the distance in a file that takes no speed with a minus sign."""
-    if any(isinstance(node, ast.USub) for _, value in _speeds(tree) for node in walk(value)):
-        return
-    for node in nodes_of(tree, ast.BinOp):
-        if not isinstance(node.op, ast.Sub):
-            continue
-        left, right = unparse(node.left), unparse(node.right)
-        if KEPT.search(left) and MEASURED.search(right) and not MEASURED.search(left):
-            yield (
-                node.lineno,
-                "gap",
-                f"{unparse(node)[:60]} is below zero where the distance is too large: the speed is made of the "
-                "distance minus the gap",
-            )
-
-
-def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a condition that lets a robot drive only where the distance, or the error, is small."""
-    for node in nodes_of(tree, ast.If):
-        if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
-            continue
-        test, left, right = node.test, unparse(node.test.left), unparse(node.test.comparators[0])
-        less = isinstance(test.ops[0], ast.Lt | ast.LtE) and LESS.search(left) and "abs" not in left
-        more = isinstance(test.ops[0], ast.Gt | ast.GtE) and LESS.search(right) and not LESS.search(left)
-        if not (less or more) or not _drives(node.body) or _drives(node.orelse):
-            continue
-        others = [value for _, value in _speeds(tree) if not any(value is each for each in walk(node))]
-        if all(_is_zero(value) for value in others):
-            yield (
-                node.lineno,
-                "gap",
-                f"it drives only where {unparse(test)[:60]}, which does not hold where it is behind",
-            )
-
-
-def _drives(body: list[ast.stmt]) -> bool:
-    return any(not _is_zero(value) for _, value in _speeds(ast.Module(body, [])))
-
-
-def _is_zero(value: ast.expr) -> bool:
-    return isinstance(value, ast.Constant) and not value.value
-
-
-def added_positions(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a position of an odometry that is added to a sum with each message."""
-    for node in nodes_of(tree, ast.AugAssign):
-        if isinstance(node.op, ast.Add) and ".position." in unparse(node.value):
-            name = unparse(node.target)
-            if name.startswith("self."):
-                yield (
-                    node.lineno,
-                    "gap",
-                    f"{name} grows by the whole position with each message: an odometry says where the robot is, not "
-                    "how far it has come since the message before",
-                )
-
-
-def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a speed that int() or // makes a whole number."""
-    for _, value in _speeds(tree):
-        whole = [node for node in nodes_of(value, ast.Call) if unparse(node.func) == "int"]
-        if whole or any(isinstance(node, ast.FloorDiv) for node in walk(value)):
-            yield (
-                value.lineno,
-                "whole_speed",
-                f"{unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0",
-            )
-
-
+@suspicion
 def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
     """Find a timer that is cancelled in its own callback where a distance is small, and never begins again."""
     if called(tree) & {"reset"} or "create_subscription" not in called(tree):
@@ -113,10 +45,81 @@ def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
                 if id(call) in under and (ends or (name == "destroy_timer" and timer in map(unparse, call.args))):
                     yield (
                         call.lineno,
-                        "silenced",
+                        About.SILENCED,
                         f"{unparse(call)} ends the timer for good, so {callback} is never called again: return "
                         "instead, or send a Twist of zeros",
                     )
 
 
-LOOKS = (timers_that_end_themselves, whole_speeds, gap_minus_distance, drives_when_near, added_positions)
+@suspicion
+def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a speed that int() or // makes a whole number."""
+    for _, value in _speeds(tree):
+        whole = [node for node in nodes_of(value, ast.Call) if unparse(node.func) == "int"]
+        if whole or any(isinstance(node, ast.FloorDiv) for node in walk(value)):
+            yield (
+                value.lineno,
+                About.WHOLE_SPEED,
+                f"{unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0",
+            )
+
+
+def _drives(body: list[ast.stmt]) -> bool:
+    return any(not _is_zero(value) for _, value in _speeds(ast.Module(body, [])))
+
+
+def _is_zero(value: ast.expr) -> bool:
+    return isinstance(value, ast.Constant) and not value.value
+
+
+@suspicion
+def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the gap minus the distance in a file that takes no speed with a minus sign."""
+    if any(isinstance(node, ast.USub) for _, value in _speeds(tree) for node in walk(value)):
+        return
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Sub):
+            continue
+        left, right = unparse(node.left), unparse(node.right)
+        if KEPT.search(left) and MEASURED.search(right) and not MEASURED.search(left):
+            yield (
+                node.lineno,
+                About.GAP,
+                f"{unparse(node)[:60]} is below zero where the distance is too large: the speed is made of the "
+                "distance minus the gap",
+            )
+
+
+@suspicion
+def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a condition that lets a robot drive only where the distance, or the error, is small."""
+    for node in nodes_of(tree, ast.If):
+        if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+            continue
+        test, left, right = node.test, unparse(node.test.left), unparse(node.test.comparators[0])
+        less = isinstance(test.ops[0], ast.Lt | ast.LtE) and LESS.search(left) and "abs" not in left
+        more = isinstance(test.ops[0], ast.Gt | ast.GtE) and LESS.search(right) and not LESS.search(left)
+        if not (less or more) or not _drives(node.body) or _drives(node.orelse):
+            continue
+        others = [value for _, value in _speeds(tree) if not any(value is each for each in walk(node))]
+        if all(_is_zero(value) for value in others):
+            yield (
+                node.lineno,
+                About.GAP,
+                f"it drives only where {unparse(test)[:60]}, which does not hold where it is behind",
+            )
+
+
+@suspicion
+def added_positions(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a position of an odometry that is added to a sum with each message."""
+    for node in nodes_of(tree, ast.AugAssign):
+        if isinstance(node.op, ast.Add) and ".position." in unparse(node.value):
+            name = unparse(node.target)
+            if name.startswith("self."):
+                yield (
+                    node.lineno,
+                    About.GAP,
+                    f"{name} grows by the whole position with each message: an odometry says where the robot is, not "
+                    "how far it has come since the message before",
+                )

@@ -7,7 +7,9 @@ import math
 import re
 from collections.abc import Callable, Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 NAMED = re.compile(r"heading|yaw|theta", re.IGNORECASE)
 TURNED = (1.0, -1.2, 2.1, -2.6)  # [rad] headings that are tried
@@ -64,6 +66,7 @@ def _value(node: ast.expr, yaw: float, names: dict[str, ast.expr], depth: int = 
     raise _Unknown
 
 
+@suspicion
 def other_formulas(tree: ast.AST) -> Iterator[Suspect]:
     """Find a heading that is computed of a quaternion, and is not the heading on flat ground."""
     for function in functions(tree):
@@ -77,7 +80,7 @@ def other_formulas(tree: ast.AST) -> Iterator[Suspect]:
         for _, value in given:
             said = _said(value, names) if _of_a_quaternion(value, names) else ""
             if said:
-                yield value.lineno, "heading", f"`{unparse(value)[:80]}` {said}"
+                yield value.lineno, About.HEADING, f"`{unparse(value)[:80]}` {said}"
 
 
 def _of_a_quaternion(value: ast.expr, names: dict[str, ast.expr], depth: int = DEEPEST) -> bool:
@@ -109,6 +112,3 @@ def _said(value: ast.expr, names: dict[str, ast.expr]) -> str:
     if max(map(abs, found)) < 1e-9:
         return "is always 0 on flat ground, where x and y are 0: the heading is 2 * atan2(z, w)"
     return f"gives {found[0]:.2f} where a robot has turned by 1 rad to the left: the heading is 2 * atan2(z, w)"
-
-
-LOOKS = (other_formulas,)

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
     assigned,
     called,
     calls,
@@ -20,6 +19,10 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
+
+BEFORE = ("exchanged_axes", "heading_formulas")
 
 LIMITS = frozenset({"min", "max", "clip", "float", "abs", "fabs"})  # what keeps a number within [-1, 1]
 MOST = 3.2  # [rad] a larger limit of an angle was meant in degrees
@@ -64,16 +67,21 @@ def _part(node: ast.AST, names: set[str]) -> str:
     return node.attr if of in names or of.endswith((".orientation", ".rotation")) else ""
 
 
-def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
-    """Find headings that are made of a quaternion in a wrong way."""
-    names = _quaternions(tree)
-    for value in _headings(tree):
-        parts = {part for node in walk(value) if (part := _part(node, names))}
-        if not parts:
-            continue
-        words = _wrong_heading(value, parts, names)
-        if words and not (words.startswith("acos") and _signed(tree, names)):
-            yield value.lineno, "heading", f"{unparse(value)[:60]} is taken for the heading: {words}"
+@suspicion
+def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find a heading of a quaternion that a function returns in degrees, in a file that makes no radians of it."""
+    if called(tree) & TO_RADIANS or _to_radians(tree):
+        return
+    aims = any(called(n) & {"atan2", "arctan2"} and not _of_quaternion(n) for n in walk(tree) if _is_call(n))
+    for node in walk(tree):
+        value = node.value if isinstance(node, ast.Return) else None
+        if aims and value is not None and _in_degrees(value) and _of_quaternion(value):
+            yield (
+                value.lineno,
+                About.ANGLE,
+                f"{unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
+                "radians; both must be in one unit",
+            )
 
 
 def _signed(tree: ast.AST, names: set[str]) -> bool:
@@ -106,6 +114,28 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
     return ""
 
 
+@suspicion
+def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
+    """Find headings that are made of a quaternion in a wrong way."""
+    names = _quaternions(tree)
+    for value in _headings(tree):
+        parts = {part for node in walk(value) if (part := _part(node, names))}
+        if not parts:
+            continue
+        words = _wrong_heading(value, parts, names)
+        if words and not (words.startswith("acos") and _signed(tree, names)):
+            yield value.lineno, About.HEADING, f"{unparse(value)[:60]} is taken for the heading: {words}"
+
+
+def _in_degrees(value: ast.AST) -> bool:
+    return bool(called(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", unparse(value)))
+
+
+def _to_radians(value: ast.AST) -> bool:
+    return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", unparse(value)))
+
+
+@suspicion
 def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
     in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
@@ -121,29 +151,10 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
         if name in SINES and given and not called(given[0]) & TO_RADIANS and not _to_radians(given[0]):
             parts = {unparse(each) for each in nodes_of(given[0], ast.Name, ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
-                yield node.lineno, "angle", f"{text} gets an angle in degrees: cos and sin take radians"
+                yield node.lineno, About.ANGLE, f"{text} gets an angle in degrees: cos and sin take radians"
         of_scan = given and (OF_SCANS.search(unparse(given[0])) or unparse(given[0]) in of_scans)
         if name in TO_RADIANS and of_scan and not _in_degrees(given[0]):
-            yield node.lineno, "angle", f"{text} converts what is in radians already: all angles of a scan are"
-
-
-def _in_degrees(value: ast.AST) -> bool:
-    return bool(called(value) & TO_DEGREES) or bool(re.search(r"\* 180(?:\.0)? / (?:\w+\.)?pi", unparse(value)))
-
-
-def _to_radians(value: ast.AST) -> bool:
-    return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", unparse(value)))
-
-
-def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
-    """Find an angular.z that is assigned degrees."""
-    in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
-    known = named_numbers(tree)
-    for target, value in assigned(tree):
-        parts = {unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
-        wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
-        if wrong and unparse(target).endswith("angular.z"):
-            yield value.lineno, "angle", "angular.z gets degrees per second here: it is in radians per second"
+            yield node.lineno, About.ANGLE, f"{text} converts what is in radians already: all angles of a scan are"
 
 
 def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
@@ -159,6 +170,19 @@ def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
         yield from _counting(child, known)
 
 
+@suspicion
+def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+    """Find an angular.z that is assigned degrees."""
+    in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
+    known = named_numbers(tree)
+    for target, value in assigned(tree):
+        parts = {unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
+        wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
+        if wrong and unparse(target).endswith("angular.z"):
+            yield value.lineno, About.ANGLE, "angular.z gets degrees per second here: it is in radians per second"
+
+
+@suspicion
 def sine_first(tree: ast.AST) -> Iterator[Suspect]:
     """Find atan2 of x and y."""
     for node in nodes_of(tree, ast.Call):
@@ -166,9 +190,36 @@ def sine_first(tree: ast.AST) -> Iterator[Suspect]:
             continue
         first, second = (unparse(each) for each in node.args)
         if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
-            yield node.lineno, "heading", f"{unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
+            yield node.lineno, About.HEADING, f"{unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
 
 
+@suspicion
+def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
+    """Find the sum or difference of an angle in degrees and the direction that atan2 returns."""
+    values = list(assigned(tree))
+    in_degrees = {unparse(target) for target, value in values if _in_degrees(value)}
+    in_radians = {unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
+    for node in nodes_of(tree, ast.BinOp):
+        if not isinstance(node.op, ast.Sub | ast.Add):
+            continue
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            degrees = unparse(one) in in_degrees or _in_degrees(one)
+            radians = unparse(other) in in_radians or _of_atan2(other)
+            if degrees and radians:
+                yield (
+                    node.lineno,
+                    About.ANGLE,
+                    f"`{unparse(node)[:70]}`: {unparse(one)[:40]} is in degrees, and {unparse(other)[:40]} "
+                    "in radians; both must be in one unit, and the sines of Python and ROS's messages take radians",
+                )
+
+
+def _of_atan2(value: ast.AST) -> bool:
+    """Return whether a value is what atan2 returns, in radians."""
+    return bool(called(value) & {"atan2", "arctan2"}) and not _in_degrees(value) and isinstance(value, ast.Call)
+
+
+@suspicion
 def differences(tree: ast.AST) -> Iterator[Suspect]:
     """Find the difference of a direction and a heading in a file that brings no angle between -pi and pi."""
     text = unparse(tree)
@@ -188,49 +239,8 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
         if HEADING.search(unparse(node.right)) and direction:
             yield (
                 node.lineno,
-                "wrap",
+                About.WRAP,
                 f"{unparse(node)[:60]} is not brought between -pi and pi, so the robot may turn the long way round",
-            )
-
-
-def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
-    """Find the sum or difference of an angle in degrees and the direction that atan2 returns."""
-    values = list(assigned(tree))
-    in_degrees = {unparse(target) for target, value in values if _in_degrees(value)}
-    in_radians = {unparse(target) for target, value in values if _of_atan2(value)} - in_degrees
-    for node in nodes_of(tree, ast.BinOp):
-        if not isinstance(node.op, ast.Sub | ast.Add):
-            continue
-        for one, other in ((node.left, node.right), (node.right, node.left)):
-            degrees = unparse(one) in in_degrees or _in_degrees(one)
-            radians = unparse(other) in in_radians or _of_atan2(other)
-            if degrees and radians:
-                yield (
-                    node.lineno,
-                    "angle",
-                    f"`{unparse(node)[:70]}`: {unparse(one)[:40]} is in degrees, and {unparse(other)[:40]} "
-                    "in radians; both must be in one unit, and the sines of Python and ROS's messages take radians",
-                )
-
-
-def _of_atan2(value: ast.AST) -> bool:
-    """Return whether a value is what atan2 returns, in radians."""
-    return bool(called(value) & {"atan2", "arctan2"}) and not _in_degrees(value) and isinstance(value, ast.Call)
-
-
-def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
-    """Find a heading of a quaternion that a function returns in degrees, in a file that makes no radians of it."""
-    if called(tree) & TO_RADIANS or _to_radians(tree):
-        return
-    aims = any(called(n) & {"atan2", "arctan2"} and not _of_quaternion(n) for n in walk(tree) if _is_call(n))
-    for node in walk(tree):
-        value = node.value if isinstance(node, ast.Return) else None
-        if aims and value is not None and _in_degrees(value) and _of_quaternion(value):
-            yield (
-                value.lineno,
-                "angle",
-                f"{unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
-                "radians; both must be in one unit",
             )
 
 
@@ -243,6 +253,7 @@ def _of_quaternion(node: ast.AST) -> bool:
     return {"z", "w"} <= parts
 
 
+@suspicion
 def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
     """Find an angle in radians that is compared with a number above pi, in a file that makes no degrees."""
     if called(tree) & (TO_DEGREES | TO_RADIANS) or not called(tree) & {"atan2", "arctan2"}:
@@ -262,13 +273,7 @@ def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
         if re.search(r"angle|bearing|heading|yaw|turn|theta", name) and limit is not None and MOST < limit <= 180:
             yield (
                 node.lineno,
-                "angle",
+                About.ANGLE,
                 f"`{unparse(node)[:60]}`: an angle in radians is at most 3.14, and {limit:g} degrees are "
                 f"{math.radians(limit):.2g}",
             )
-
-
-LOOKS = (
-    headings_in_degrees, quaternion_parts, degrees_for_radians, turning_rates_in_degrees, sine_first,
-    degrees_beside_radians, differences, limits_in_degrees,
-)  # fmt: skip

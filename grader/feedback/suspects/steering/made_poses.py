@@ -7,12 +7,34 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 RATE = re.compile(r"\btwist\.(?:twist\.)?angular\.z")
 REST = "the pose of /odom is exact here: take it as it comes"
 
 
+@suspicion
+def heading_of_a_position(tree: ast.AST) -> Iterator[Suspect]:
+    """Find `atan2(p.y, p.x)` of a position of /odom: the direction from the origin to the robot."""
+    positions = {unparse(one) for one, value in assigned(tree) if unparse(value).endswith(".pose.pose.position")}
+    for node in walk(tree):
+        match node:
+            case ast.Call(args=[ast.Attribute(value=one, attr="y"), ast.Attribute(value=other, attr="x")]):
+                whole = unparse(one)
+                if whole != unparse(other) or not re.search(r"atan2$|arctan2$", unparse(node.func)):
+                    continue
+                if whole in positions or whole.endswith(".pose.pose.position"):
+                    yield (
+                        node.lineno,
+                        About.HEADING,
+                        f"{unparse(node)[:60]} is the direction from the origin to the robot, not where the robot "
+                        "looks: the heading is 2 * atan2(orientation.z, orientation.w)",
+                    )
+
+
+@suspicion
 def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.yaw += message.twist.twist.angular.z * dt` in a callback of odometry."""
     if "Odometry" not in unparse(tree):
@@ -26,13 +48,18 @@ def summed_rates(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(node.op, ast.Add) and (RATE.search(unparse(node.value)) or parts & rates):
                 yield (
                     node.lineno,
-                    "heading",
+                    About.HEADING,
                     f"{unparse(node)[:60]} adds up turning rates: it begins at 0 wherever the robot looks, and it "
                     "is as wrong as the time between messages that it takes for granted; the heading is 2 * "
                     "atan2(orientation.z, orientation.w)",
                 )
 
 
+def _used(value: ast.expr) -> set[str]:
+    return {unparse(each) for each in nodes_of(value, ast.Attribute, ast.Name)}
+
+
+@suspicion
 def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
     """Find the mean of an old pose and a new one, by which the robot seems to be where it was."""
     known = named_numbers(tree)
@@ -56,16 +83,13 @@ def averaged_poses(tree: ast.AST) -> Iterator[Suspect]:
                         ):
                             yield (
                                 node.lineno,
-                                "pose",
+                                About.POSE,
                                 f"{unparse(node)[:60]} averages the pose with older ones, so it lags behind the "
                                 f"robot, and the walls and the steering with it; {REST}",
                             )
 
 
-def _used(value: ast.expr) -> set[str]:
-    return {unparse(each) for each in nodes_of(value, ast.Attribute, ast.Name)}
-
-
+@suspicion
 def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
     """Find a difference of angles that is reduced by half a turn: `% pi`, `remainder(x, pi)`."""
     for node in walk(tree):
@@ -81,28 +105,7 @@ def cut_at_pi(tree: ast.AST) -> Iterator[Suspect]:
         if re.fullmatch(r"(?:math\.|np\.|numpy\.)?pi", unparse(divisor)):
             yield (
                 node.lineno,
-                "angle",
+                About.ANGLE,
                 f"{unparse(node)[:60]} takes away half turns, so what is behind seems to be ahead: a whole turn is "
                 "2 * pi",
             )
-
-
-def heading_of_a_position(tree: ast.AST) -> Iterator[Suspect]:
-    """Find `atan2(p.y, p.x)` of a position of /odom: the direction from the origin to the robot."""
-    positions = {unparse(one) for one, value in assigned(tree) if unparse(value).endswith(".pose.pose.position")}
-    for node in walk(tree):
-        match node:
-            case ast.Call(args=[ast.Attribute(value=one, attr="y"), ast.Attribute(value=other, attr="x")]):
-                whole = unparse(one)
-                if whole != unparse(other) or not re.search(r"atan2$|arctan2$", unparse(node.func)):
-                    continue
-                if whole in positions or whole.endswith(".pose.pose.position"):
-                    yield (
-                        node.lineno,
-                        "heading",
-                        f"{unparse(node)[:60]} is the direction from the origin to the robot, not where the robot "
-                        "looks: the heading is 2 * atan2(orientation.z, orientation.w)",
-                    )
-
-
-LOOKS = (heading_of_a_position, summed_rates, averaged_poses, cut_at_pi)

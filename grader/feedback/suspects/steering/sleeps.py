@@ -5,8 +5,10 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, called, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import called, calls, functions, last_name, nodes_of, unparse
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 SLEEPS = frozenset({"sleep", "sleep_for", "sleep_until"})
 CLOCKS = frozenset({"now", "time", "monotonic", "perf_counter", "time_ns", "monotonic_ns"})
@@ -14,6 +16,7 @@ THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "Thr
 SHORT = 0.05  # [s] of sleep that hardly delays anything
 
 
+@suspicion
 def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
     """Find a sleep, or a loop until a time, in a callback or in a function of the file that one calls."""
     if called(tree) & THREADS:
@@ -25,7 +28,7 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
                 continue
             yield (
                 call.lineno,
-                "sleep",
+                About.SLEEP,
                 f"{unparse(call)[:60]} sleeps in a callback ({function.name}): meanwhile the node hears no scan "
                 "and no odometry, and no timer fires, so it continues with old values; publish a command and return, "
                 "and look again in the next call",
@@ -34,7 +37,7 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
             if called(loop.test) & CLOCKS and not called(loop) & (SLEEPS | {"spin_once"}):
                 yield (
                     loop.lineno,
-                    "sleep",
+                    About.SLEEP,
                     f"the loop `while {unparse(loop.test)[:60]}` waits in a callback ({function.name}): meanwhile "
                     "the node hears nothing, and no timer fires; return, and look again in the next call",
                 )
@@ -54,6 +57,3 @@ def reached(tree: ast.AST) -> list[ast.FunctionDef]:
                 if isinstance(call.func, ast.Name) or unparse(call.func).startswith("self.")
             ]
     return list(found.values())
-
-
-LOOKS = (sleeping_callbacks,)

@@ -7,16 +7,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    calls,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 MANY = 8  # values of a mean
 MEANS = ("mean", "fmean", "average", "median", "sum", "nanmean", "nanmedian")
@@ -28,6 +21,7 @@ WORDS = (
 )
 
 
+@suspicion
 def means_over_time(tree: ast.Module) -> Iterator[Suspect]:
     """Find the mean of the last values that an attribute keeps from scan to scan."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
@@ -40,7 +34,7 @@ def means_over_time(tree: ast.Module) -> Iterator[Suspect]:
         read = [unparse(each) for given in of for each in nodes_of(given, ast.Attribute)]
         kept = next((each for each in read if sizes.get(each, 0) >= MANY), "")
         if kept:
-            yield call.lineno, "delay", f"{unparse(call)[:60]}, of the last {sizes[kept]:g} values, {WORDS}"
+            yield call.lineno, About.DELAY, f"{unparse(call)[:60]}, of the last {sizes[kept]:g} values, {WORDS}"
 
 
 def _sizes(tree: ast.Module) -> dict[str, float]:
@@ -78,6 +72,7 @@ def _sizes(tree: ast.Module) -> dict[str, float]:
     return {name: size for name, size in found.items() if size is not None}
 
 
+@suspicion
 def moving_averages(tree: ast.Module) -> Iterator[Suspect]:
     """Find an attribute of which most is kept from scan to scan: `self.x = 0.95 * self.x + 0.05 * new` and the like."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
@@ -105,12 +100,12 @@ def moving_averages(tree: ast.Module) -> Iterator[Suspect]:
             if asked & {unparse(each) for each in nodes_of(node.value, ast.Name, ast.Call)}:
                 yield (
                     node.lineno,
-                    "seldom distance",
+                    About.SELDOM_DISTANCE,
                     f"{unparse(node)[:70]} lets a new value of the parameter take effect over many scans, and it "
                     "must at once: use the parameter itself",
                 )
             else:
-                yield node.lineno, "delay", f"{unparse(node)[:70]} {WORDS}"
+                yield node.lineno, About.DELAY, f"{unparse(node)[:70]} {WORDS}"
 
 
 def _share(value: ast.expr, name: str, known: dict[str, int | float]) -> float | None:
@@ -159,6 +154,7 @@ def _weight(old: ast.expr, new: ast.expr, name: str, known: dict[str, int | floa
     return 1 - weight if any(each is not None and abs(each + weight - 1) < 1e-6 for each in given) else None
 
 
+@suspicion
 def delay_lines(tree: ast.Module) -> Iterator[Suspect]:
     """Find the oldest of many values, taken where the newest is meant: `self.last.popleft()`, `self.last[0]`."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
@@ -180,10 +176,7 @@ def delay_lines(tree: ast.Module) -> Iterator[Suspect]:
         if not any(part in text for part in (f"{oldest}[-1]", f"{oldest}.appendleft", f"{oldest}.insert")):
             yield (
                 value.lineno,
-                "delay",
+                About.DELAY,
                 f"{unparse(value)[:60]} is the oldest of {sizes[oldest]:g} values, so the robot answers what the "
                 "lidar saw that many scans ago, turns too late, and swings; use the newest",
             )
-
-
-LOOKS = (means_over_time, moving_averages, delay_lines)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, last_name, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, calls, last_name, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 LIMITING = ("min", "minimum", "clip", "clamp", "limited", "limit")
 
 
+@suspicion
 def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
     """Find a `max` of the parameter speed_limit and a speed, where no `min` or other function limits the result."""
     if "speed_limit" not in unparse(tree):
@@ -23,7 +26,7 @@ def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
             if reads_limit(limit) or unparse(limit) in names:
                 yield (
                     call.lineno,
-                    "speed limit",
+                    About.SPEED_LIMIT,
                     f"{unparse(call)[:60]} is {unparse(limit)[:40]} at least; what limits a speed is min(...)",
                 )
 
@@ -46,6 +49,3 @@ def reads_limit(node: ast.expr) -> bool:
     if isinstance(node, ast.Call) and last_name(node.func) not in (*LIMITING, "max", "abs"):
         return any(isinstance(each, ast.Constant) and each.value == "speed_limit" for each in node.args)
     return False
-
-
-LOOKS = (at_least_the_limit,)

@@ -19,13 +19,16 @@ from gz_course.grader.feedback.facts.ros_parameters import (
     owners,
     reads,
 )
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, calls, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, calls, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 SLOW = 0.5  # [s] period of a timer that reads parameters too seldom
 TYPES = {float: "DOUBLE", int: "INTEGER", str: "STRING", bool: "BOOL"}
 TYPE = frozenset({*TYPES.values(), "DOUBLE_ARRAY", "INTEGER_ARRAY", "STRING_ARRAY", "BYTE_ARRAY"})
 
 
+@suspicion
 def stale(tree: ast.Module) -> Iterator[Suspect]:
     """Find, for each parameter that is declared, why a new value would not be used."""
     text, known = unparse(tree), declared(tree)
@@ -38,7 +41,7 @@ def stale(tree: ast.Module) -> Iterator[Suspect]:
         if not heard and all(inside[id(call)] in start - {MODULE} for call, _ in found):
             once = f"{unparse(unnamed[0])[:60]} is read only once, in {inside[id(unnamed[0])]}"
             words = f"{once}; read parameters in each callback of a scan"
-            yield from ((unnamed[0].lineno, f"parameter {name}", words) for name in known)
+            yield from ((unnamed[0].lineno, About.PARAMETER.of(name), words) for name in known)
         return
     for name, (line, default) in known.items():
         where = [(call, inside[id(call)]) for call, other in found if other == name]
@@ -52,9 +55,9 @@ def stale(tree: ast.Module) -> Iterator[Suspect]:
         if said is None and not heard and not later:
             said = _once(where, name, line, inside)
         if said is not None:
-            yield said[0], f"parameter {name}", said[1]
+            yield said[0], About.PARAMETER.of(name), said[1]
         elif not heard and (slow := _seldom(tree, [(call, function) for call, function in where if call in later])):
-            yield slow[0], f"seldom {name}", slow[1]
+            yield slow[0], About.SELDOM.of(name), slow[1]
 
 
 def _seldom(tree: ast.Module, later: list[tuple[ast.Call, str]]) -> tuple[int, str] | None:
@@ -213,6 +216,3 @@ def _guard(test: ast.expr) -> str:
         test = test.operand
     text = unparse(test)
     return text if isinstance(test, ast.Attribute) and text.startswith("self.") else ""
-
-
-LOOKS = (stale,)

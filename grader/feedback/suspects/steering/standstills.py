@@ -6,11 +6,14 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 NEAREST = re.compile(r"\b(?:min|nanmin|amin)\((?:\w+\.)*ranges\)|\.ranges\)?\.min\(\)|\bmin\(\w+(?:\.\w+)*\.ranges\)")
 
 
+@suspicion
 def stops_for_all_sides(tree: ast.AST) -> Iterator[Suspect]:
     """Find `if min(scan.ranges) < 0.5: command.linear.x = 0.0`, where the test is true for what is behind, too."""
     nearest = {unparse(one) for one, value in assigned(tree) if NEAREST.search(unparse(value))}
@@ -26,10 +29,7 @@ def stops_for_all_sides(tree: ast.AST) -> Iterator[Suspect]:
             more = "" if called(body) - {"Twist", "publish"} else ", and as long as it stands nothing changes"
             yield (
                 node.lineno,
-                "standstill",
+                About.STANDSTILL,
                 f"`if {test[:60]}` stops the robot for whatever is near on any side, also behind it{more}: look at the "
                 "rays ahead only, and turn",
             )
-
-
-LOOKS = (stops_for_all_sides,)

@@ -10,16 +10,11 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.ros_parameters import reads
-from gz_course.grader.feedback.facts.syntax import (
-    Suspect,
-    assigned,
-    calls,
-    functions,
-    last_name,
-    nodes_of,
-    unparse,
-    walk,
-)
+from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
+
+BEFORE = ("beyond_limits",)
 
 TO_DEGREES, TO_RADIANS = frozenset({"degrees", "rad2deg"}), frozenset({"radians", "deg2rad"})
 ENDS = TO_RADIANS | {"cos", "sin", "tan", "len", "range", "print", "isfinite"}  # what degrees do not get through
@@ -36,6 +31,7 @@ def _steers(tree: ast.AST) -> bool:
     return "angular.z" in text and "LaserScan" in text
 
 
+@suspicion
 def degrees_in_gains(tree: ast.Module) -> Iterator[Suspect]:
     """Find an angle in degrees that goes into angular.z by a gain that is no gain per degree."""
     if not _steers(tree):
@@ -53,7 +49,7 @@ def degrees_in_gains(tree: ast.Module) -> Iterator[Suspect]:
             if unparse(target).endswith("angular.z") and (line := _degrees(value, names, known)):
                 yield (
                     line,
-                    "degrees",
+                    About.DEGREES,
                     "here an angle is in degrees, and angular.z is made of it as if it were in radians, so a heading "
                     "that is wrong by a few degrees already turns the robot as fast as it may; leave all angles in "
                     "radians",
@@ -113,6 +109,7 @@ def _degrees(node: ast.expr, names: dict[str, int], known: dict[str, Number]) ->
     return _degrees(node.operand, names, known) if isinstance(node, ast.UnaryOp) else 0
 
 
+@suspicion
 def centimetres(tree: ast.Module) -> Iterator[Suspect]:
     """Find the parameter that says how far, or a range, that is multiplied by 100, 1000, or the inverse of them."""
     if not _steers(tree):
@@ -127,11 +124,12 @@ def centimetres(tree: ast.Module) -> Iterator[Suspect]:
         if factor in HUNDREDS and any(id(each) in asked for each in walk(other)):
             yield (
                 node.lineno,
-                "unit",
+                About.UNIT,
                 f"{unparse(node)[:70]} is in another unit than metres, which the parameter and all ranges are in",
             )
 
 
+@suspicion
 def gains_behind_limits(tree: ast.Module) -> Iterator[Suspect]:
     """Find a rate that is limited first and then multiplied by a gain, or has something added, on its way out."""
     known = named_numbers(tree)
@@ -147,7 +145,7 @@ def gains_behind_limits(tree: ast.Module) -> Iterator[Suspect]:
                 if inside and gain is not None and abs(gain) > 1 and _goes_out(function, node, values):
                     yield (
                         node.lineno,
-                        "limit",
+                        About.LIMIT,
                         f"{unparse(node)[:70]} multiplies by {gain:g} what is limited already, so it goes beyond "
                         "the limit: limit last",
                     )
@@ -184,6 +182,7 @@ def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.ex
     return False
 
 
+@suspicion
 def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
     """Find min() of tuples in which the range is not the first item, with no key."""
     if not _steers(tree):
@@ -210,12 +209,13 @@ def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
             if items[0] not in single and set(items[1:]) & single:
                 yield (
                     call.lineno,
-                    "farthest",
+                    About.FARTHEST,
                     f"{unparse(call)[:60]} compares the first items of the tuples, {items[0][:30]}, and not their "
                     "ranges: put the range first, or pass a key",
                 )
 
 
+@suspicion
 def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
     """Find int(r) and round(r) of a range: what is left are whole metres."""
     if not _steers(tree):
@@ -231,11 +231,12 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
             if name in ("int", "round") and (given in single or ".ranges[" in given.partition("(")[0]):
                 yield (
                     call.lineno,
-                    "farthest",
+                    About.FARTHEST,
                     f"{unparse(call)[:60]} makes whole metres of a range: leave it as it is",
                 )
 
 
+@suspicion
 def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
     """Find a ray that hits nothing, or is not valid, that counts as 0 m."""
     if not _steers(tree):
@@ -262,11 +263,8 @@ def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
         if zero:
             yield (
                 node.lineno,  # type: ignore[attr-defined]
-                "zero",
+                About.ZERO,
                 f"{code[:80]} makes a ray that hits nothing the nearest of all, at 0 m: leave such rays out, or let "
                 "them count as far away",
             )
             return
-
-
-LOOKS = (degrees_in_gains, centimetres, gains_behind_limits, least_tuples, whole_metres, zero_for_nothing)

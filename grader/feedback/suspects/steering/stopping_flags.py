@@ -5,9 +5,14 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, functions, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, functions, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
+
+BEFORE = ("endless_drives", "sleeps")
 
 
+@suspicion
 def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
     """Find `self.arrived = True` that nothing sets back, where `if self.arrived` returns or sends no speed."""
     if "ActionServer" in called(tree):
@@ -25,7 +30,7 @@ def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
         if all(_is(value, True) for value in later) and (stop := _stop(tree, name)):
             yield (
                 later[0].lineno,
-                "stopped",
+                About.STOPPED,
                 f"{name} becomes True here, and nothing sets it back to False: from then on line {stop} keeps the "
                 "robot where it is, however far it is behind",
             )
@@ -62,6 +67,3 @@ def _asks(test: ast.expr, name: str) -> bool:
 
 def _zero(value: ast.expr) -> bool:
     return isinstance(value, ast.Constant) and value.value == 0 and value.value is not False
-
-
-LOOKS = (stops_for_ever,)

@@ -6,13 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Suspect, assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.steering.headings import HEADING
 
 WHOLE_TURN = re.compile(r"2(?:\.0)? \* [\w.]*pi|[\w.]*pi \* 2|\btau\b|6\.28")
 AIMED = frozenset({"atan2", "arctan2"})
 
 
+@suspicion
 def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
     """Find `angular.z = -1.2 if error > 0 else 1.2`, where the error is the direction of the goal minus the heading."""
     pairs = list(assigned(tree))
@@ -41,12 +44,13 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
             goal, turn = ("left", "right") if side > 0 else ("right", "left")
             yield (
                 node.lineno,
-                "sign",
+                About.SIGN,
                 f"where {unparse(test)}, the goal is on the {goal}, and angular.z becomes {unparse(given)}, "
                 f"which turns the robot to the {turn}, away from its goal; a positive angular.z turns to the left",
             )
 
 
+@suspicion
 def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
     """Find `error = (atan2(dy, dx) - yaw) % (2 * pi)`, which is never negative, so all turns go to the left."""
     pairs = list(assigned(tree))
@@ -66,7 +70,7 @@ def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
         if not re.search(rf"{re.escape(name)} (?:>=?|-=?) [\w.]*pi", text):  # what follows may bring it below pi
             yield (
                 value.lineno,
-                "wrap",
+                About.WRAP,
                 f"`{unparse(value)[:80]}` lies between 0 and 2 pi, so a goal a little to the right is nearly a "
                 f"whole turn to the left: {name} must lie between -pi and pi, as remainder(..., 2 * pi) does",
             )
@@ -90,9 +94,3 @@ def _turn(statement: ast.stmt) -> ast.expr | None:
     if isinstance(statement, ast.Assign) and _turns(statement.targets[0]):
         return statement.value
     return None
-
-
-LOOKS = (
-    wrong_side,
-    whole_turns,
-)

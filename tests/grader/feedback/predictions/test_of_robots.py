@@ -64,7 +64,7 @@ LOOKS = {
     "stuck": driving.does_not_drive,
     "slow": lambda robot: driving.other_speed(robot, 0.4, 0.5),
     "curve": driving.unequal_wheels,
-    "turns": lambda robot: next(filter(None, driving.turns_slowly(robot, 0.8)), ""),
+    "turns": lambda robot: driving.turns_slowly(robot, 0.8),
     "sides": driving.sides_exchanged,
     "middle": driving.beside_the_middle,
     "leans": driving.leans,

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.feedback.slips import slips
+from gz_course.grader.feedback.slips import ROOM, slips
 from gz_course.grader.feedback.slips.geometry import filtered_rays, map_starts, sorted_rays
 
 STEP = "a = i * scan.angle_increment"
@@ -14,7 +14,7 @@ ANGLES = "angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges)
 
 def found(room, *lines):
     text = "class A:\n    def on_scan(self, scan):\n" + "".join(f"        {line}\n" for line in lines)
-    return [place for look in room.LOOKS for place in look(ast.parse(text))]
+    return [place for look in ROOM.of(room) for place in look(ast.parse(text))]
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ class Mapper(Node):
     ],
 )  # fmt: skip
 def test_a_start_that_is_subtracted(old, new):
-    ((_, said),) = map_starts.LOOKS[0](ast.parse(SUBTRACTS.replace(old, new, 1) if old else SUBTRACTS))
+    ((_, said),) = ROOM.of(map_starts)[0](ast.parse(SUBTRACTS.replace(old, new, 1) if old else SUBTRACTS))
     assert "subtracts the first position from all others" in said
 
 
@@ -94,7 +94,7 @@ def test_a_start_that_is_subtracted(old, new):
     ],
 )
 def test_a_start_with_another_use(text):
-    assert list(map_starts.LOOKS[0](ast.parse(text))) == []
+    assert list(ROOM.of(map_starts)[0](ast.parse(text))) == []
 
 
 @pytest.mark.parametrize(

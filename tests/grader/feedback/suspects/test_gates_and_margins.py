@@ -4,6 +4,7 @@ import ast
 
 import pytest
 
+from gz_course.grader.feedback.suspects import ROOM
 from gz_course.grader.feedback.suspects.planning import (
     closed_gates,
     forgetting,
@@ -17,7 +18,7 @@ from gz_course.grader.feedback.suspects.steering import made_poses, standstills
 
 def found(room, text):
     tree = ast.parse(text)
-    return [(line, said) for look in room.LOOKS for line, _, said in look(tree)]
+    return [(line, said) for look in ROOM.of(room) for line, _, said in look(tree)]
 
 
 def test_a_flag_that_the_first_call_sets_for_ever():
