@@ -116,25 +116,32 @@ def _single(kind: str) -> str:
 
 @explanation
 def lists(error: str, code: str) -> str:
-    """Explain what is no list, and an index that does not fit."""
-    if match := NO_LIST.search(error):
-        kind, how = match[1] or match[3] or match[6], match[2] or match[4] or match[5]
-        if kind in NUMBERS:
-            if kind == "int" and how == "iterable" and code.startswith("for "):
-                return "for goes through a list or a range: for i in range(n)"
-            wanted = "indexed with [...]" if how == "subscriptable" else "gone through or unpacked like a list"
-            return f"that is one number, which cannot be {wanted}: min(), max(), sum() and for take the whole list"
-        if kind in ("LaserScan", "Odometry", "Imu") or DATA.match(kind):
-            return INSTEAD.get(kind) or f"that is the whole message {kind}: what it carries is in its field data"
-        if kind in VECTORS:
-            return f"a {kind} is no list: its numbers are the fields .x, .y and .z"
-        if kind in ("method", "function", "builtin_function_or_method"):
-            return INSTEAD[kind]
-        if kind == "NoneType":
-            return "that is None: it was never set, or it is the result of a function that returns nothing"
-        if kind == "Parameter":
-            return INSTEAD[kind]
+    """Explain what is no list."""
+    match = NO_LIST.search(error)
+    if match is None:
         return ""
+    kind, how = match[1] or match[3] or match[6], match[2] or match[4] or match[5]
+    if kind in NUMBERS:
+        if kind == "int" and how == "iterable" and code.startswith("for "):
+            return "for goes through a list or a range: for i in range(n)"
+        wanted = "indexed with [...]" if how == "subscriptable" else "gone through or unpacked like a list"
+        return f"that is one number, which cannot be {wanted}: min(), max(), sum() and for take the whole list"
+    if kind in ("LaserScan", "Odometry", "Imu") or DATA.match(kind):
+        return INSTEAD.get(kind) or f"that is the whole message {kind}: what it carries is in its field data"
+    if kind in VECTORS:
+        return f"a {kind} is no list: its numbers are the fields .x, .y and .z"
+    if kind in ("method", "function", "builtin_function_or_method"):
+        return INSTEAD[kind]
+    if kind == "NoneType":
+        return "that is None: it was never set, or it is the result of a function that returns nothing"
+    if kind == "Parameter":
+        return INSTEAD[kind]
+    return ""
+
+
+@explanation
+def indices(error: str, code: str) -> str:
+    """Explain an index that does not fit."""
     if re.search(r"(?:list|tuple) indices must be integers or slices, not tuple", error):
         return "a list of lists is indexed grid[row][column]; grid[row, column] needs an array of NumPy"
     if re.search(r"(?:list|tuple) indices must be integers or slices, not str", error):
@@ -153,6 +160,12 @@ def lists(error: str, code: str) -> str:
             f"the index is {match[1]}, but there are {match[3]} elements along axis {match[2]}, 0 to "
             f"{int(match[3]) - 1}; an image or a map is indexed [row, column], that is [y, x]"
         )
+    return ""
+
+
+@explanation
+def arrays(error: str, code: str) -> str:
+    """Explain what an array or a list does not have, and a number of values that does not fit."""
     if match := re.search(r"'array\.array' object has no attribute '(\w+)'", error):
         name = match[1]
         if name in ("length", "size", "shape", "len", "count_", "getLength"):

@@ -158,6 +158,11 @@ def left_early(loop: ast.AST) -> bool:
     return bool(nodes_of(loop, ast.Break, ast.Return))
 
 
+def hands_over(loop: ast.AST) -> bool:
+    """Return whether each round of a loop leaves its function for a while: that of a generator or a coroutine."""
+    return bool(nodes_of(loop, ast.Yield, ast.YieldFrom, ast.Await))
+
+
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
     """Yield each assignment to a single target, after the target."""
     return ((node.targets[0], node) for node in nodes_of(tree, ast.Assign) if len(node.targets) == 1)

@@ -1,4 +1,4 @@
-"""A real grading in which rules of feedback raise: the score, the checks and the exit code stay, and the report says it."""
+"""A real grading in which rules of feedback raise: score, checks and exit code stay, and the report says it."""
 
 import json
 import os
@@ -52,8 +52,8 @@ def graded(tmp_path_factory):
     def grade(rooms=""):
         out, report = folder / f"out_{rooms}", folder / f"{rooms or 'none'}.json"
         done = subprocess.run(
-            [sys.executable, "-c", PROGRAM, rooms, folder, "grade", "00_first_run", folder / "hello_node.py", "--out", out,
-             "--json", report],
+            [sys.executable, "-c", PROGRAM, rooms, folder, "grade", "00_first_run", "--out", out, "--json", report,
+             "--submission", folder / "hello_node.py"],
             capture_output=True, text=True, timeout=300, env=os.environ | {"NO_COLOR": "1"}, check=False,
         )  # fmt: skip
         assert report.exists(), done.stdout + done.stderr
@@ -65,9 +65,8 @@ def graded(tmp_path_factory):
 def test_a_broken_rule_costs_nothing_and_is_named(graded):
     (whole, right), (done, broken) = graded(), graded(",".join(RULES))
     assert done.returncode == whole.returncode
-    assert [right[key] for key in ("score", "outcome", "checks")] == [
-        broken[key] for key in ("score", "outcome", "checks")
-    ]
+    for key in ("score", "outcome", "checks"):
+        assert right[key] == broken[key]
     assert right["diagnosis"] == broken["diagnosis"] and "died" in right["diagnosis"]
     assert right["notes"] == []
     for room, error in {"slips": "KeyError", "suspects": "RecursionError", "errors": "ValueError"}.items():

@@ -5,7 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, left_early, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    called,
+    calls,
+    functions,
+    hands_over,
+    left_early,
+    nodes_of,
+    unparse,
+)
 from gz_course.grader.feedback.slips import slip
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
@@ -95,7 +104,7 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
     for function in [each for each in functions(tree) if _runs_before_spin(each, tree)]:
         for node in nodes_of(function, ast.While):
             inside = called(node)
-            if inside & (SPINS | spinning):
+            if inside & (SPINS | spinning) or hands_over(node):
                 continue
             endless = (isinstance(node.test, ast.Constant) and bool(node.test.value)) or "ok" in called(node.test)
             if "create_rate" in everything and "sleep" in inside:

@@ -71,8 +71,10 @@ def _says(body: list[ast.stmt]) -> bool:
 
 def _limit(test: ast.Compare, values: dict[str, list[ast.expr]], names: dict[str, Number]) -> tuple[str, bool]:
     """Return the limit of an age as it is written, and whether it is large; empty if it may be right, or is unknown."""
-    other = test.comparators[0] if _is_age(test.left, values, STEPS) else test.left
-    whole = 1.0 if _in_seconds(test, values, STEPS) else NANO
+    age, other = test.left, test.comparators[0]
+    if not _is_age(age, values, STEPS):
+        age, other = other, age
+    whole = 1.0 if _in_seconds(age, values, STEPS) else NANO
     given = values.get(unparse(other), [other])
     known = number(other, names)
     large = (known is not None and abs(known) >= EVER * whole) or (len(given) == 1 and _endless(given[0]))

@@ -80,7 +80,7 @@ def _widenings(tree: ast.Module) -> Iterator[tuple[int, str, Number]]:
                 continue
             for call, called in calls(tree):
                 place = names.index(name)
-                if called == function.name and len(call.args) > place and _of_walls(call):
+                if called == function.name and len(call.args) > place and _of_walls(call, known):
                     value = number(call.args[place], known)
                     if value is not None:
                         yield call.lineno, unparse(call.args[place]), value
@@ -114,7 +114,9 @@ def _by_cells(function: ast.FunctionDef, name: str, known: dict[str, Number]) ->
     return None
 
 
-def _of_walls(call: ast.Call) -> bool:
+def _of_walls(call: ast.Call, known: dict[str, Number]) -> bool:
     """Return whether what is widened is not what is unknown, as for the search for frontiers."""
     first = unparse(call.args[0]).lower()
+    if any(known.get(unparse(each)) == -1 for each in nodes_of(call.args[0], ast.Name, ast.Attribute)):
+        return False
     return "unknown" not in first and "-1" not in first and "free" not in first and last_name(call.func) != "roll"

@@ -6,7 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import (
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.suspects import suspicion
 from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import assigned_once, expanded
@@ -223,14 +232,20 @@ def _guards(function: ast.AST, call: ast.Call) -> bool:
 @suspicion
 def unturned(tree: ast.AST) -> Iterator[Suspect]:
     """Find places that are kept in a file in which nothing is turned."""
-    if called(tree) & TURNS or any(
-        isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult) for node in walk(tree)
-    ):
+    if called(tree) & TURNS or any(isinstance(node.op, ast.MatMult) for node in nodes_of(tree, ast.BinOp)):
         return
-    for _, call, _ in kept(tree):
+    for function, call, _ in kept(tree):
+        if _is_one_field(function, call.args[0]):
+            continue
         yield (
             call.lineno,
             About.UNTURNED,
             f"{unparse(call)[:60]} keeps points as the camera sees them, and the robot turns: turn each by the "
             "heading at which it was seen",
         )
+
+
+def _is_one_field(function: ast.FunctionDef, added: ast.expr) -> bool:
+    """Say whether what is added is one field of something, such as the rate of a gyroscope, and so no place."""
+    given = set_to(function).get(unparse(added), [])
+    return isinstance(added, ast.Attribute) or (len(given) == 1 and isinstance(given[0], ast.Attribute))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
@@ -233,6 +233,13 @@ class Speeds:
             case ast.BinOp(left=left, op=op, right=right):
                 positive = _positive(right)
                 return [_of_both(node, op, one, other, positive) for one in inside(left) for other in inside(right)]
+            case ast.Call():
+                return self._called(node, inside)
+        return [FREE]
+
+    def _called(self, node: ast.Call, inside: Callable[[ast.expr], list[Speed]]) -> list[Speed]:
+        """Return what the result of a call may be; `inside` returns it for one of its arguments."""
+        match node:
             case ast.Call(args=[one, other]) if last_name(node.func) in ("min", "max"):
                 small = last_name(node.func) == "min"
                 return [_chosen(small, a, b) for a in inside(one) for b in inside(other)]
@@ -289,10 +296,7 @@ def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positi
     if isinstance(one, float) and isinstance(op, ast.Add) and one >= 1 and positive:
         return AT_LEAST
     if isinstance(op, ast.Mult) and AT_MOST in (one, other):
-        if one == other or share[other != AT_MOST]:
-            return AT_MOST
-        factor, times = (right, shown) if one == AT_MOST else (shown, right)
-        return node.lineno, f"{text} multiplies {times} by {factor}, which is above 1 at times: limit last, min(...)"
+        return _limit_times(node, one, other, share)
     if isinstance(op, ast.Mult) and all(share):
         return SHARE
     if one != AT_MOST:
@@ -300,12 +304,7 @@ def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positi
             raise UnknownValueError
         return FREE
     if isinstance(op, ast.Div):
-        if other == AT_LEAST or (isinstance(other, float) and other >= 1):
-            return AT_MOST
-        if other == FREE and positive:
-            raise UnknownValueError
-        below = "is 1 at most, so the quotient is larger" if other == SHARE else "is below 1 at times"
-        return node.lineno, f"{text} divides {shown} by {right}, which {below}: limit last, min(...)"
+        return _limit_over(node, other, positive)
     if isinstance(op, ast.Sub):
         if positive or share[1]:
             return AT_MOST
@@ -313,6 +312,26 @@ def _of_both(node: ast.BinOp, op: ast.operator, one: Speed, other: Speed, positi
     if isinstance(op, ast.Add) and (reads_limit(node.left) or isinstance(node.left, ast.Name | ast.Attribute)):
         return node.lineno, f"{text} adds {right} to {shown}, which is the limit already: limit last, min(...)"
     raise UnknownValueError
+
+
+def _limit_times(node: ast.BinOp, one: Speed, other: Speed, share: list[bool]) -> Speed:
+    """Return what the product of speed_limit and another value may be."""
+    text, shown, right = unparse(node)[:60], unparse(node.left)[:30], unparse(node.right)[:40]
+    if one == other or share[other != AT_MOST]:
+        return AT_MOST
+    factor, times = (right, shown) if one == AT_MOST else (shown, right)
+    return node.lineno, f"{text} multiplies {times} by {factor}, which is above 1 at times: limit last, min(...)"
+
+
+def _limit_over(node: ast.BinOp, other: Speed, positive: bool) -> Speed:
+    """Return what speed_limit divided by another value may be."""
+    text, shown, right = unparse(node)[:60], unparse(node.left)[:30], unparse(node.right)[:40]
+    if other == AT_LEAST or (isinstance(other, float) and other >= 1):
+        return AT_MOST
+    if other == FREE and positive:
+        raise UnknownValueError
+    below = "is 1 at most, so the quotient is larger" if other == SHARE else "is below 1 at times"
+    return node.lineno, f"{text} divides {shown} by {right}, which {below}: limit last, min(...)"
 
 
 def _chosen(small: bool, one: Speed, other: Speed) -> Speed:

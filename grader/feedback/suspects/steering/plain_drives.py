@@ -11,7 +11,9 @@ from gz_course.grader.feedback.suspects import suspicion
 from gz_course.grader.feedback.suspects.about import Suspect
 
 Rule = Callable[[ast.Module], Iterator[Suspect]]
-OTHER_TASKS = frozenset({"ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform"})
+OTHER_TASKS = frozenset({
+    "ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform", "declare_parameters",
+})  # fmt: skip
 
 
 def of_a_plain_drive(rule: Rule) -> Rule:

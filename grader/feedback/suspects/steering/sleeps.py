@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import called, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import called, calls, functions, hands_over, last_name, nodes_of, unparse
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 from gz_course.grader.feedback.suspects import suspicion
 from gz_course.grader.feedback.suspects.about import About, Suspect
@@ -34,6 +34,8 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
                 "and look again in the next call",
             )
         for loop in nodes_of(function, ast.While):
+            if hands_over(loop):
+                continue
             if called(loop.test) & CLOCKS and not called(loop) & (SLEEPS | {"spin_once"}):
                 yield (
                     loop.lineno,
