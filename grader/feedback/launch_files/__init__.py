@@ -9,20 +9,33 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
+from typing import Any
 
 from gz_course.grader.feedback.facts.syntax import Places, places_in
-from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
-from gz_course.grader.feedback.rules import Room, ask, findings
+from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place
+from gz_course.grader.feedback.rules import Room, findings
 
 MOST = 3  # places reported at most
 Rule = Callable[[LaunchFile], Iterator[Place]]
+Fact = Callable[[LaunchFile], Iterator[dict[str, Any]]]
 ROOM: Room[Rule] = Room(__name__)
+FACTS: Room[tuple[str, int | None, Fact]] = Room(__name__)
 
 
 def launch_slip(function: Rule) -> Rule:
     """Register a mistake in launch files."""
     ROOM.add(function, function)
     return function
+
+
+def launch_fact(name: str, most: int | None = 2 * MOST) -> Callable[[Fact], Fact]:
+    """Register what a file says of the launch, as places of which so many are recorded."""
+
+    def register(function: Fact) -> Fact:
+        FACTS.add((name, most, function), function)
+        return function
+
+    return register
 
 
 def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType({})) -> dict[str, Places]:
@@ -43,43 +56,8 @@ def launch_places(content: bytes, nodes: Mapping[str, bytes] = MappingProxyType(
         slips = [place for rule in ROOM.rules() for place in findings(rule, file)]
         first = dict(reversed(slips))  # of several on a line, what is found first
         found["launch_slips"] = [{"line": line, "said": said} for line, said in first.items()][::-1][:MOST]
-        found.update({name: ask(facts, [], file) for name, facts in _facts().items()})
+        found.update({name: findings(fact, file)[:most] for name, most, fact in FACTS.rules()})
         return []
 
     places_in(content, look)
     return found
-
-
-def _facts() -> dict[str, Callable[[LaunchFile], Places]]:
-    from gz_course.grader.feedback.launch_files.conditions import bridges, simulators
-    from gz_course.grader.feedback.launch_files.counts import fixed_counts
-    from gz_course.grader.feedback.launch_files.remappings import remappings
-    from gz_course.grader.feedback.launch_files.sim_time import programs
-    from gz_course.grader.feedback.launch_files.values import fixed_worlds
-
-    return {
-        "fixed_worlds": lambda file: [{"line": line, "world": world} for line, world in fixed_worlds(file)][:MOST],
-        "declared": _declared,
-        "remappings": lambda file: list(remappings(file))[: 2 * MOST],
-        "programs": lambda file: list(programs(file))[: 2 * MOST],
-        "bridges_made": lambda file: list(bridges(file))[: 2 * MOST],
-        "fixed_counts": lambda file: list(fixed_counts(file))[: 2 * MOST],
-        "simulators_made": lambda file: list(simulators(file))[: 2 * MOST],
-    }
-
-
-def _declared(file: LaunchFile) -> Places:
-    found = [
-        {
-            "line": call.lineno,
-            "name": text(argument(call, "name", 0)),
-            "default": text(file.value(argument(call, "default_value"))),
-        }
-        for call in file.calls("DeclareLaunchArgument")
-    ]
-    names = {place["name"] for place in found}
-    return found + [
-        {"line": call.lineno, "name": name, "default": text(file.value(argument(call, "default")))}
-        for call in file.calls("LaunchConfiguration")
-        if argument(call, "default") and (name := text(argument(call, "variable_name", 0))) not in names
-    ]

@@ -217,7 +217,8 @@ def _file_as_topic(file: LaunchFile, arguments: ast.expr) -> Iterator[Place]:
     """Find the bridge's file among its arguments, which are topics."""
     given = file.value(arguments)
     for word in given.elts if isinstance(given, ast.List | ast.Tuple) else []:
-        if any(text(each).endswith((".yaml", ".yml")) for part in file.parts(word) for each in walk(part)):
+        said = [text(each) for part in file.parts(word) for each in walk(part)]
+        if any(each.endswith((".yaml", ".yml")) for each in said) and not any(":=" in each for each in said):
             yield (
                 word.lineno,
                 "the arguments of parameter_bridge are topics; its file is the value of its parameter config_file: "

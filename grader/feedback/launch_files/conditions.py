@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.feedback.facts.syntax import unparse, walk
+from gz_course.grader.feedback.launch_files import launch_fact
 from gz_course.grader.feedback.launch_files.actions import MAIN, endless
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, argument
 
@@ -16,6 +17,7 @@ SIMULATORS = ("gz sim", "gz_sim.launch.py")
 DECIDES = ast.If | ast.IfExp | ast.For | ast.ListComp | ast.Lambda
 
 
+@launch_fact("simulators_made")
 def simulators(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Yield `line` and `condition` (its code, or empty) of each action that starts a simulator.
 
@@ -24,6 +26,7 @@ def simulators(file: LaunchFile) -> Iterator[dict[str, Any]]:
     yield from _actions(file, SIMULATORS)
 
 
+@launch_fact("bridges_made")
 def bridges(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Yield the same of each action that starts a bridge."""
     yield from _actions(file, ("parameter_bridge",))

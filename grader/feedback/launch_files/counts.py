@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.feedback.facts.syntax import functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.launch_files import launch_fact
 from gz_course.grader.feedback.launch_files.reading import PROCESSES, LaunchFile, argument, text
 
 ROUND = ("enumerate", "list", "tuple", "sorted", "reversed", "items", "keys", "values")
 
 
+@launch_fact("fixed_counts")
 def fixed_counts(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Yield `line`, `count` and `said` (what ends there) of each loop that makes so many actions at most.
 

@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
+from gz_course.grader.feedback.launch_files import launch_fact
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, argument, text
 
 
+@launch_fact("remappings")
 def remappings(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Yield `line`, the `namespace` of the node (empty for the root), and the names `from` and `to`, as written.
 

@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from gz_course.grader.feedback.facts.syntax import last_name, walk
+from gz_course.grader.feedback.launch_files import launch_fact
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, argument, text
 from gz_course.grader.feedback.launch_files.ros_arguments import command_words
 
 SIM_TIME = "use_sim_time"
 
 
+@launch_fact("programs")
 def programs(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Yield `line`, `program` (the name of its file) and `sim_time`, whether the action mentions it, of each program.
 

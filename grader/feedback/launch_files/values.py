@@ -11,9 +11,10 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from gz_course.grader.feedback.facts.syntax import last_name, unparse, walk
-from gz_course.grader.feedback.launch_files import launch_slip
+from gz_course.grader.feedback.launch_files import MOST, launch_fact, launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 
 BEFORE = ("actions", "unread")
@@ -165,11 +166,12 @@ def words_of_the_command(file: LaunchFile) -> Iterator[Place]:
             )
 
 
-def fixed_worlds(file: LaunchFile) -> Iterator[Place]:
+@launch_fact("fixed_worlds", most=MOST)
+def fixed_worlds(file: LaunchFile) -> Iterator[dict[str, Any]]:
     """Find the names of worlds that stand as texts in a command or in `gz_args`, where an argument could decide."""
     for call in file.calls("ExecuteProcess", "Node", "IncludeLaunchDescription"):
         for given in (argument(call, "cmd", 0), argument(call, "arguments"), argument(call, "launch_arguments", 1)):
             for node in walk(given) if given is not None else ():
                 part = file.value(node) if isinstance(node, ast.Name) else node
                 if isinstance(part, ast.Constant) and (match := WORLD.search(text(part).strip())):
-                    yield part.lineno, match[1]
+                    yield {"line": part.lineno, "world": match[1]}

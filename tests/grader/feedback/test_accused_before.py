@@ -1,5 +1,6 @@
 """What right programs were once accused of, and what is still wrong beside it."""
 
+from gz_course.grader.feedback.launch_files import launch_places
 from gz_course.grader.feedback.slips import slips
 from gz_course.grader.feedback.suspects import suspects
 
@@ -75,3 +76,13 @@ def test_one_field_is_no_place_that_has_to_be_turned():
 def test_a_node_that_is_tuned_drives_for_no_time():
     assert about(DRIVES.format(first="self.declare_parameters('', [('gain', 0.5)])"), "endless") == []
     assert about(DRIVES.format(first="pass"), "endless") != []
+
+
+def test_a_parameter_of_the_bridge_may_have_any_name():
+    def said(value):
+        run = "ExecuteProcess(cmd=['ros2', 'run', 'ros_gz_bridge', 'parameter_bridge', '--ros-args', '-p', thing])"
+        source = f"def generate_launch_description():\n    thing = {value}\n    return LaunchDescription([{run}])\n"
+        return launch_places(source.encode())["launch_slips"]
+
+    assert said("f\"config_file:={folder / 'bridge.yaml'}\"") == []
+    assert "arguments of parameter_bridge are topics" in said("str(folder / 'bridge.yaml')")[0]["said"]
