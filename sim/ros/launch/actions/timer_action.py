@@ -24,7 +24,12 @@ if TYPE_CHECKING:
 
 @expose_action("timer")
 class TimerAction(Action):
-    """Visits `actions` once, `period` [s] after its execution; the end of the launch cancels it."""
+    """Visits `actions` once, `period` [s] after its execution; the end of the launch cancels it.
+
+    They see the launch configurations (namespace, parameters, remappings, arguments) of the moment of its execution,
+    and what they change ends with them. The environment is that of the later moment.
+    Source: ros2/launch, release 3.4.5 (pull request 836)
+    """
 
     def __init__(
         self,
@@ -43,6 +48,7 @@ class TimerAction(Action):
         self.__future: asyncio.Future[None] | None = None
         self.__cancel_timer: Callable[[], None] | None = None
         self.__canceled = False
+        self.__scope: tuple[dict[str, Any], dict[str, Any]] = ({}, {})
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
@@ -84,6 +90,7 @@ class TimerAction(Action):
         if self.__canceled or context.is_shutdown:
             return None
         self._settle()
+        self.__scope = (dict(context.launch_configurations), context.get_locals_as_dict())
         self.__future = loop.create_future()
         cancel_on_shutdown = evaluate_condition_expression(context, self.__cancel_on_shutdown)
         handler = _TimerHandler(self, cancel_on_shutdown)
@@ -97,6 +104,10 @@ class TimerAction(Action):
         """Call a function after `period` [s]; return one that prevents it."""
         assert context.asyncio_loop is not None
         return context.asyncio_loop.call_later(period, call).cancel
+
+    def _due(self) -> list[LaunchDescriptionEntity]:
+        """Return the actions between the two ends of their scope."""
+        return [_BeginScope(*self.__scope), *self.actions, _EndScope()]
 
     def _settle(self) -> None:
         if self.__cancel_timer is not None:
@@ -124,4 +135,27 @@ class _TimerHandler(EventHandler):
         if future is None or future.done():
             return []
         self._timer._settle()
-        return self._timer.actions if isinstance(event, TimerEvent) else []
+        return self._timer._due() if isinstance(event, TimerEvent) else []
+
+
+class _BeginScope(Action):
+    """Begins a scope with the given launch configurations and locals, and with no other configurations."""
+
+    def __init__(self, configurations: dict[str, Any], local_values: dict[str, Any]) -> None:
+        super().__init__()
+        self._configurations, self._locals = configurations, local_values
+
+    def execute(self, context: LaunchContext) -> None:
+        context._push_launch_configurations()
+        context.launch_configurations.clear()
+        context.launch_configurations.update(self._configurations)
+        context._push_locals()
+        context.extend_locals(self._locals)
+
+
+class _EndScope(Action):
+    """Ends the scope of `_BeginScope`."""
+
+    def execute(self, context: LaunchContext) -> None:
+        context._pop_locals()
+        context._pop_launch_configurations()

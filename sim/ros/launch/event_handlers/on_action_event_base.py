@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.ros.launch.action import Action
+from gz_course.sim.ros.launch.action_of_processes import ActionOfProcesses
 from gz_course.sim.ros.launch.event import Event
 from gz_course.sim.ros.launch.event_handler import EventHandler, answer, known_entities
 from gz_course.sim.ros.launch.launch_description_entity import LaunchDescriptionEntity
@@ -35,7 +36,9 @@ class OnActionEventBase(EventHandler):
         argument: str = "on_event",
     ) -> None:
         is_function = callable(action_matcher) and not isinstance(action_matcher, Action)
-        if not (action_matcher is None or is_function or isinstance(action_matcher, target_action_cls)):
+        if not (
+            action_matcher is None or is_function or isinstance(action_matcher, target_action_cls | ActionOfProcesses)
+        ):
             raise TypeError(
                 f"target_action={action_matcher!r} is of type {type(action_matcher).__name__}; "
                 f"{target_action_cls.__name__}, a function or None is expected"
@@ -54,6 +57,8 @@ class OnActionEventBase(EventHandler):
         action = event.action  # type: ignore[attr-defined]
         if self._target is None:
             return True
+        if isinstance(self._target, ActionOfProcesses):
+            return any(action is each for each in self._target.processes)
         if isinstance(self._target, Action):
             return action is self._target
         return bool(self._target(action))

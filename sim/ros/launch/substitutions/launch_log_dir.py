@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import gz_course.sim.ros.launch.logging as launch_logging
 from gz_course.sim.ros.launch.launch_context import LaunchContext
-from gz_course.sim.ros.launch.substitution import Substitution
+from gz_course.sim.ros.launch.substitutions.path_join_substitution import Divisible
 
 
-class LaunchLogDir(Substitution):
+class LaunchLogDir(Divisible):
     """The folder of this run's log files."""
 
     def describe(self) -> str:

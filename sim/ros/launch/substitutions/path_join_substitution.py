@@ -15,7 +15,14 @@ from gz_course.sim.ros.launch.utilities import (
 )
 
 
-class PathJoinSubstitution(Substitution):
+class Divisible(Substitution):
+    """A path; `/` adds a component to it. Source: ros2/launch, release 3.4.9 (pull request 918)"""
+
+    def __truediv__(self, component: SomeSubstitutionsType) -> PathJoinSubstitution:
+        return PathJoinSubstitution([self, component])
+
+
+class PathJoinSubstitution(Divisible):
     """Components joined with `/`; each is text, a substitution, or a list of them that forms one component.
 
     `PathJoinSubstitution([...]) / "more"` adds a component.

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from gz_course.sim.ros.launch.launch_context import LaunchContext
-from gz_course.sim.ros.launch.substitution import Substitution
 from gz_course.sim.ros.launch.substitutions.local_substitution import local_value
+from gz_course.sim.ros.launch.substitutions.path_join_substitution import Divisible
 
 CURRENT_FOLDER = "current_launch_file_directory"
 
 
-class ThisLaunchFileDir(Substitution):
+class ThisLaunchFileDir(Divisible):
     """The folder of the launch file; inside an included file, that of the included file."""
 
     def describe(self) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.ros.launch.logging as launch_logging
-from gz_course.sim.ros.launch.action import Action
+from gz_course.sim.ros.launch.action_of_processes import ActionOfProcesses
 from gz_course.sim.ros.launch.frontend.entity import Entity
 from gz_course.sim.ros.launch.frontend.expose import expose_action
 from gz_course.sim.ros.launch.launch_context import LaunchContext
@@ -28,11 +28,12 @@ _OF_THE_CONTAINER = ("parameters", "remappings", "arguments", "ros_arguments", "
 
 
 @expose_action("node_container")
-class ComposableNodeContainer(Action):
+class ComposableNodeContainer(ActionOfProcesses):
     """Starts the nodes of `composable_node_descriptions`; the container itself does not exist.
 
     A node is started by the program that is registered for its component (`component_programs`). Arguments about
-    processes (`output`, `respawn`, `on_exit`, ...) are those of each node.
+    processes (`output`, `respawn`, `on_exit`, ...) are those of each node. For an event handler the container ends with
+    the last of its nodes.
     """
 
     def __init__(
@@ -68,6 +69,7 @@ class ComposableNodeContainer(Action):
         """Return the nodes. Raises NotAvailableError for a component that no program runs."""
         options = {name: value for name, value in self.arguments.items() if name not in _OF_THE_CONTAINER}
         nodes = [each for node in self.composable_node_descriptions for each in node.as_process(context, **options)]
+        self.processes += nodes
         name = perform_substitutions(context, self.container_name)
         _LOG.info(f"the nodes of the container '{name}' run as processes of their own ({len(nodes)})")
         return list(nodes)

@@ -31,7 +31,9 @@ class SetParameter(Action):
         """Read `<set_parameter name= value=/>`."""
         _, options = super().parse(entity, parser)
         options["name"] = parser.parse_substitution(entity.get_attr("name"))
-        options["value"] = parser.parse_if_substitutions(entity.get_attr("value", data_type=None))
+        value = entity.get_attr("value", data_type=None)
+        # A text is a value in YAML, also where the launch file itself is YAML: "3" is a number.
+        options["value"] = parser.parse_substitution(value) if isinstance(value, str) else value
         return cls, options
 
     def execute(self, context: LaunchContext) -> None:

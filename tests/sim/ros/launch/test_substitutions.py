@@ -23,6 +23,7 @@ from gz_course.sim.ros.launch.substitutions import (
     FindExecutable,
     IfElseSubstitution,
     LaunchConfiguration,
+    LaunchLogDir,
     LocalSubstitution,
     NotEqualsSubstitution,
     NotSubstitution,
@@ -32,6 +33,7 @@ from gz_course.sim.ros.launch.substitutions import (
     PythonExpression,
     SubstitutionFailure,
     TextSubstitution,
+    ThisLaunchFile,
     ThisLaunchFileDir,
 )
 from gz_course.sim.ros.launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -254,3 +256,12 @@ def test_substitutions_in_text(text, value):
             perform_substitutions(context, parse_substitution(text))
     else:
         assert perform_substitutions(context, parse_substitution(text)) == value
+
+
+def test_a_slash_adds_components_to_the_paths_of_the_launch():
+    context = LaunchContext()
+    context.extend_locals({"current_launch_file_directory": "/here", "current_launch_file_path": "/here/a.launch.py"})
+    name = TextSubstitution(text="bridge.yaml")
+    assert (ThisLaunchFileDir() / "config" / name).perform(context) == "/here/config/bridge.yaml"
+    assert (ThisLaunchFile() / "x").perform(context) == "/here/a.launch.py/x"
+    assert (LaunchLogDir() / "x").perform(context) == LaunchLogDir().perform(context) + "/x"

@@ -12,9 +12,18 @@ from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
 from gz_course.sim.ros.launch import LaunchContext
-from gz_course.sim.ros.launch.actions import GroupAction
+from gz_course.sim.ros.launch.actions import (
+    EmitEvent,
+    GroupAction,
+    IncludeLaunchDescription,
+    LogInfo,
+    RegisterEventHandler,
+)
 from gz_course.sim.ros.launch.conditions import IfCondition
 from gz_course.sim.ros.launch.errors import LaunchError
+from gz_course.sim.ros.launch.event_handlers import OnProcessExit, OnProcessStart
+from gz_course.sim.ros.launch.events import Shutdown
+from gz_course.sim.ros.launch.launch_description_sources import AnyLaunchDescriptionSource
 from gz_course.sim.ros.launch.substitutions import LaunchConfiguration, TextSubstitution
 from gz_course.sim.ros.launch_ros.actions import (
     ComposableNodeContainer,
@@ -318,3 +327,37 @@ def test_composable_nodes_run_as_processes_of_their_own(tell):
 def test_parameters_as_values_with_a_type():
     value = ParameterValue(TextSubstitution(text="5"), value_type=str)
     assert (value.value_type, value.evaluate(LaunchContext())) == (str, "5")
+
+
+@pytest.mark.parametrize(
+    ("written", "value"), [("'true'", True), ("'3'", 3), ("3", 3), ("'2.5'", 2.5), ("a b", "a b"), ("'[1, 2]'", [1, 2])]
+)
+def test_the_text_of_set_parameter_is_yaml_also_in_a_file_of_yaml(tell, tmp_path, written, value):
+    (tmp_path / "p.launch.yaml").write_text(f"""\
+launch:
+- set_parameter: {{name: p, value: {written}}}
+- node: {{pkg: my_robot, exec: tell, output: screen}}
+""")
+    result = tell(IncludeLaunchDescription(AnyLaunchDescriptionSource(str(tmp_path / "p.launch.yaml"))))
+    (words,) = result.words
+    name, _, text = words[words.index("-p") + 1].partition(":=")
+    assert (name, yaml.safe_load(text)) == ("p", value)
+
+
+def test_an_event_handler_sees_a_container_as_its_nodes(tell):
+    nodes = [ComposableNode(package="my_robot", plugin="my::Tell", name=name) for name in ("a", "b")]
+    container = ComposableNodeContainer(name="c", namespace="", composable_node_descriptions=nodes, output="screen")
+    result = tell(
+        RegisterEventHandler(OnProcessStart(target_action=container, on_start=[LogInfo(msg="a start")])),
+        RegisterEventHandler(OnProcessExit(target_action=container, on_exit=[LogInfo(msg="the end")])),
+        container,
+    )
+    lines = [line.partition("[launch.user]: ")[2] for line in result.text.splitlines() if "launch.user" in line]
+    assert lines == ["a start", "a start", "the end"]
+    assert result.text.index("the end") > result.text.rindex("process has finished cleanly")
+
+
+def test_an_event_handler_of_a_container_without_nodes_waits_in_vain(tell):
+    container = ComposableNodeContainer(name="c", namespace="", composable_node_descriptions=[])
+    never = OnProcessExit(target_action=container, on_exit=[EmitEvent(event=Shutdown())])
+    assert tell(container, RegisterEventHandler(never)).code == 0
