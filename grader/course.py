@@ -22,6 +22,7 @@ from gz_course.grader.process.interruption import end_on
 from gz_course.grader.registry import module_names
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.error_text import named
+from gz_course.sim.foreign_variables import set_aside
 from gz_course.sim.terminal_text import printable
 
 
@@ -63,6 +64,8 @@ def main() -> None:
     if debug:
         del sys.argv[1]
     end_on(signal.SIGTERM, signal.SIGHUP)
+    if sys.argv[1:2] != ["doctor"]:  # which reports on them
+        set_aside("course")
     text = "Learn how Gazebo and ROS 2 work together: run, grade and look at the exercises."
     try:
         Commands(name="course", help=text, no_args_is_help=True, rich_markup_mode=None)(prog_name="course")

@@ -28,6 +28,7 @@ from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.exercise_process import ExerciseProcess
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
+from gz_course.grader.run.sandbox.environment import OF_ROS
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.submission import Submission
 from gz_course.sim.bridge.ros_gz_bridge.qos_profile import reliable
@@ -124,8 +125,14 @@ def run(
 
 @contextlib.contextmanager
 def _environment(values: dict[str, str]) -> Iterator[None]:
-    """Set environment variables for as long as a run lasts; DDS reads them when its context is made."""
-    before = {key: os.environ.get(key) for key in values}
+    """Set the environment variables that ROS and DDS read, for as long as a run lasts, and no other of theirs.
+
+    A discovery server, a profile or another middleware of the caller's would keep the grader from seeing the nodes.
+    """
+    others = [key for key in os.environ if key.startswith(OF_ROS) and key not in values]
+    before = {key: os.environ.get(key) for key in (*values, *others)}
+    for key in others:
+        del os.environ[key]
     os.environ.update(values)
     try:
         yield

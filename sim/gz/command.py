@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from gz_course.sim import gz
+from gz_course.sim.foreign_variables import set_aside
 from gz_course.sim.terminal_text import guard
 
 _DISTRIBUTION = "gz-ros2-course"
@@ -77,6 +78,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = list(sys.argv[1:] if argv is None else argv)
     if argv is None:
         guard()
+        set_aside("gz", ros=False)
     commands = find_commands()
     first = arguments[0] if arguments else "--help"
     if first in ("-h", "--help", "help"):

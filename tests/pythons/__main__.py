@@ -19,6 +19,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="make pythons", description=main.__doc__)
     parser.add_argument("pythons", nargs="*", help="paths or commands; all that are installed if left out")
     parser.add_argument("--others", action="store_true", help="leave out the version that runs this command")
+    parser.add_argument("--solutions", action="store_true", help="run the demo and all solutions only, never the suite")
     options = parser.parse_args()
     interpreters = found(options.pythons)
     if options.others:
@@ -32,7 +33,7 @@ def main() -> int:
     for interpreter in interpreters:
         print(f"{interpreter.name}  {interpreter.path}", flush=True)
         with tempfile.TemporaryDirectory(prefix="pythons-", ignore_cleanup_errors=True) as folder:
-            for outcome in tried(interpreter, CHECKOUT, Path(folder)):
+            for outcome in tried(interpreter, CHECKOUT, Path(folder), suite=not options.solutions):
                 mark = "ok" if outcome.succeeded else "FAILED"
                 print(f"  {mark:6} {outcome.seconds:5.0f} s  {outcome.command}: {outcome.said}", flush=True)
                 if not outcome.succeeded:

@@ -62,6 +62,11 @@ def test_every_promised_version_is_tried_in_full_or_with_all_solutions():
             assert [word.split()[2] for word in words[1:]] == ["03_teleop", "13_capstone"]
 
 
+def test_the_suite_can_be_left_out():
+    (first, *_) = trial.commands(Interpreter("python", (3, 12, 0)), [], suite=False)
+    assert first == ["make", "PYTHON=python", "demo"]
+
+
 def test_outcomes(tmp_path):
     checkout, log = tmp_path / "checkout", tmp_path / "log"
     checkout.mkdir()

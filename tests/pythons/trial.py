@@ -32,21 +32,21 @@ class Outcome:
     log: Path
 
 
-def commands(interpreter: Interpreter, exercises: Iterable[str]) -> list[list[str]]:
+def commands(interpreter: Interpreter, exercises: Iterable[str], *, suite: bool = True) -> list[list[str]]:
     """Return what is run with a Python: the suite, or the demo and every exercise's solution."""
     make = ["make", f"PYTHON={interpreter.path}"]
-    if interpreter.version[:2] in SUITE:
+    if suite and interpreter.version[:2] in SUITE:
         return [[*make, "test"]]
     grade = [".venv/bin/course", "grade"]
     return [[*make, "demo"], *([*grade, name, "--submission", f"solutions/{name}", "--no-page"] for name in exercises)]
 
 
-def tried(interpreter: Interpreter, checkout: Path, folder: Path) -> Iterable[Outcome]:
+def tried(interpreter: Interpreter, checkout: Path, folder: Path, *, suite: bool = True) -> Iterable[Outcome]:
     """Clone the checkout into a folder, and yield the outcome of each command; output goes to files in the folder."""
     clone = folder / "clone"
     subprocess.run(["git", "clone", "--quiet", str(checkout), str(clone)], check=True)
     exercises = sorted(each.name for each in (clone / "exercises").iterdir() if each.is_dir())
-    for number, command in enumerate(commands(interpreter, exercises)):
+    for number, command in enumerate(commands(interpreter, exercises, suite=suite)):
         log = folder / f"{number:02}.log"
         begin = time.monotonic()
         code = _run(command, clone, log)

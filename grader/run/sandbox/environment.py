@@ -9,6 +9,8 @@ from pathlib import Path
 KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
 # Set by the ROS wheels when they restart Python; one without the other breaks `import rclpy`.
 WHEEL_VARIABLES = ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "LD_LIBRARY_PATH")
+# Beginnings of the names of the variables that ROS and Fast DDS read.
+OF_ROS = ("ROS_", "RMW_", "RCL_", "RCUTILS_", "FASTDDS_", "FASTRTPS_", "SKIP_DEFAULT_XML")
 PROFILES = Path(__file__).parents[1] / "agent" / "fastdds"
 CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp, so that the same run gives the same lines
 

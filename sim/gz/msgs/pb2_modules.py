@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
 from types import ModuleType
 
-from google.protobuf import message_factory
 from google.protobuf.internal import enum_type_wrapper
 
 from gz_course.sim.gz.msgs import registry
@@ -50,7 +49,7 @@ class ProtoModules(MetaPathFinder, Loader):
         contents = vars(module)
         contents["DESCRIPTOR"] = file
         for name, descriptor in file.message_types_by_name.items():
-            contents[name] = message_factory.GetMessageClass(descriptor)
+            contents[name] = registry.class_of(descriptor)
         for name, descriptor in file.enum_types_by_name.items():
             contents[name] = enum_type_wrapper.EnumTypeWrapper(descriptor)
             contents.update({value.name: value.number for value in descriptor.values})

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from google.protobuf import any_pb2, message_factory
+from google.protobuf.descriptor import Descriptor
 from google.protobuf.descriptor_pool import DescriptorPool
 from google.protobuf.message import Message
 
@@ -107,6 +108,18 @@ def canonical_name(name: str) -> str:
     return bare
 
 
+def class_of(descriptor: Descriptor) -> type[Message]:
+    """Return the class of a message type, with its nested types as attributes.
+
+    protobuf's implementation in Python, which PROTOCOL_BUFFERS_PYTHON_IMPLEMENTATION chooses, does not set these.
+    """
+    made = message_factory.GetMessageClass(descriptor)
+    for nested in descriptor.nested_types:
+        if not hasattr(made, nested.name):
+            setattr(made, nested.name, class_of(nested))
+    return made
+
+
 @functools.lru_cache(maxsize=1024)
 def message_class(name: str) -> type[Message]:
     """Return the class of a message type.
@@ -118,12 +131,12 @@ def message_class(name: str) -> type[Message]:
     bare = canonical_name(name).removeprefix(_PACKAGE)
     if name.removeprefix(".") == _FORTRESS_PACKAGE + bare and bare in _fortress_files():
         load_file(_fortress_files()[bare])
-        return message_factory.GetMessageClass(_pool.FindMessageTypeByName(_FORTRESS_PACKAGE + bare))
+        return class_of(_pool.FindMessageTypeByName(_FORTRESS_PACKAGE + bare))
     kind, stem = _file_of_each_type().get(bare.partition(".")[0], ("", ""))
     if kind == "message":
         load_file(stem)
         try:
-            return message_factory.GetMessageClass(_pool.FindMessageTypeByName(_PACKAGE + bare))
+            return class_of(_pool.FindMessageTypeByName(_PACKAGE + bare))
         except KeyError:
             pass
     near = nearest_name(bare.rpartition(".")[2], (full.removeprefix(_PACKAGE) for full in type_names()))

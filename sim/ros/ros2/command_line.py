@@ -19,6 +19,7 @@ from pathlib import Path
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.error_text import named
+from gz_course.sim.foreign_variables import set_aside
 from gz_course.sim.ros.prefix import local_setup
 from gz_course.sim.ros.ros2 import completion, interruption
 from gz_course.sim.ros.ros2.command_files import COMMANDS, found, load
@@ -43,6 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code = hand_over(arguments)
     if code is not None:
         return code
+    set_aside("ros2")
     if "_ARGCOMPLETE" in os.environ:
         completion.complete()
     code = _explained(arguments)

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from gz_course.sim.foreign_variables import set_aside
 from gz_course.sim.ros.ros_program.errors import Failure, UsageError, first_line
 from gz_course.sim.ros.ros_program.spinner import STOP_SIGNALS, block_stop_signals
 
@@ -41,6 +42,7 @@ def run(
     if {"-h", "--help", "-help"} & set(argv[1:]):
         print(help_text, end="")
         return 0
+    set_aside(program)
     if lasting:
         # Fetched in one place, a signal is neither lost in the wait set of a library nor handled amid the setup.
         block_stop_signals()
