@@ -13,22 +13,8 @@ from pathlib import Path
 MIDDLEWARE = "rmw_fastrtps_cpp"
 PROTOBUF = ("python", "upb")
 # Source: mujoco/gl_context.py and rerun_sdk/rerun of the wheels
-GRAPHICS = (
-    "",
-    "glfw",
-    "egl",
-    "osmesa",
-    "enable",
-    "enabled",
-    "on",
-    "true",
-    "1",
-    "disable",
-    "disabled",
-    "off",
-    "false",
-    "0",
-)
+ON, OFF = ("1", "true", "on", "enable", "enabled"), ("0", "false", "off", "disable", "disabled")
+GRAPHICS = ("", "glfw", "egl", "osmesa", *ON, *OFF)
 _MUJOCO, _RERUN = "MUJOCO_GL", "RERUN"
 _RMW, _PROTOBUF = "RMW_IMPLEMENTATION", "PROTOCOL_BUFFERS_PYTHON_IMPLEMENTATION"
 

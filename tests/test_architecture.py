@@ -113,7 +113,15 @@ ALLOWED = {room: (room, *others) for room, others in USES.items()} | {room: (roo
 # What every room may import.
 FOR_ALL = tuple(
     f"sim/{name}"
-    for name in ("child_end", "did_you_mean", "error_text", "jupyter_proxy", "orphan_watch", "terminal_text")
+    for name in (
+        "child_end",
+        "did_you_mean",
+        "error_text",
+        "foreign_variables",
+        "jupyter_proxy",
+        "orphan_watch",
+        "terminal_text",
+    )
 )
 # A module that starts a program and imports how: what the program itself imports is another process.
 PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
