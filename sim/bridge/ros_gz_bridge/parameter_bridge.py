@@ -45,7 +45,7 @@ A bridge that cannot be made is reported and left out; the others are made.
   --strict  start nothing if there is any error
 
 ROS parameters (after --ros-args, each as -p name:=value, or in a file after --params-file):
-  config_file                         YAML list of bridges; not together with bridges on the command line
+  config_file                         YAML list of bridges; not together with topics on the command line
   bridge_names                        more bridges, given as parameters: bridges.NAME.ros_topic_name and so on
   lazy                                true: connect a bridge only while somebody listens (default false)
   subscription_heartbeat              how often lazy bridges look for listeners, in ms (default 1000)
@@ -143,9 +143,10 @@ def configured(node: Node, texts: list[str], given: Any, strict: bool) -> tuple[
     arguments = [text for text in texts if text not in options]
     config: Config = given.config
     config.findings += [Finding("", f"the option {option} is not known (see --help)", fatal=True) for option in options]
-    config.include(read_arguments(arguments, lazy=lazy))
-    if path and arguments:
-        sentence = f"bridges are given on the command line, so {path} is not read; put all of them in one place"
+    given_here = read_arguments(arguments, lazy=lazy)
+    config.include(given_here)
+    if path and given_here.topics:  # services on the command line do not switch it off
+        sentence = f"topics are given on the command line, so {path} is not read; put all of them in one place"
         config.findings.append(Finding("", sentence, tolerated=True))
     elif path:
         file = read_file(path, lazy=lazy)

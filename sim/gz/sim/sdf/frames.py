@@ -123,6 +123,26 @@ class Scope:
                 return f"{name}::{self.nested[name].canonical_link(asker)}"
             name = frame.attached_to or self.own
 
+    def check(self) -> None:
+        """Look at every `<frame>`, also at those that nothing uses.
+
+        Raises SdfError for a `relative_to` or `attached_to` that names nothing, and for a circle of them.
+        """
+        for name, frame in self.frames.items():
+            if frame.element.tag != "frame":
+                continue
+            self.pose_of(name, frame.element)
+            chain, base = [name], frame
+            while base.element.tag == "frame" and base.attached_to:
+                self.pose_of(base.attached_to, base.element)
+                chain.append(base.attached_to)
+                if base.attached_to in chain[:-1]:
+                    circle = " -> ".join(chain)
+                    raise base.element.error(f"these frames are attached to each other in a circle: {circle}")
+                if base.attached_to not in self.frames:
+                    break  # the scope itself, or a frame of a nested model
+                base = self.frames[base.attached_to]
+
     def canonical_link(self, asker: Element) -> str:
         """Return the link to which the model's own frame is fixed: `canonical_link`, else the first link, also of a
         nested model.

@@ -162,7 +162,7 @@ GOOD = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
         ),
         (
             [GOOD, "--strict", "--ros-args", "-p", "config_file:=x.yaml"],
-            "bridges are given on the command line, so x.yaml is not read",
+            "topics are given on the command line, so x.yaml is not read",
         ),
         (
             [GOOD, "--ros-args", "--nonsense"],
@@ -217,3 +217,10 @@ def test_strict_lists_all_faults_of_a_broken_file(ros_domain, tmp_path):
     assert done.returncode == 2
     places = [line.split(": ")[1] for line in done.stderr.splitlines()]
     assert places == [f"{file}:3", f"{file}:5", f"{file}:10"]
+
+
+def test_services_of_the_command_line_and_a_file_together(start, tmp_path):
+    file = tmp_path / "bridge.yaml"
+    file.write_text(CONFIG)
+    service = "/world/w/control@ros_gz_interfaces/srv/ControlWorld"
+    start(service, "--ros-args", "-p", f"config_file:={file}").wait_for("ready: 3 bridges")

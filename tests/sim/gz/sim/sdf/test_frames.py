@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -150,3 +151,40 @@ def test_a_chain_of_links_is_the_product_of_its_poses_in_any_order(
     made = model("".join(links))
     last = made.link(f"l{len(chain) - 1}")
     assert last is not None and last.pose.is_close(expected, 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("frames", "sentence"),
+    [
+        ("<frame name='f' attached_to='tabel'/>", "model 'm' has no frame 'tabel'; did you mean 'table'?"),
+        ("<frame name='f'><pose relative_to='tabel'/></frame>", "model 'm' has no frame 'tabel'"),
+        ("<frame name='f' attached_to='table'><pose relative_to='no'/></frame>", "model 'm' has no frame 'no'"),
+        ("<frame name='f' attached_to='no'><pose relative_to='table'/></frame>", "model 'm' has no frame 'no'"),
+        ("<frame name='f' attached_to='f'/>", "in a circle: f -> f"),
+        ("<frame name='f' attached_to='g'/><frame name='g' attached_to='f'/>", "in a circle: f -> g -> f"),
+        (
+            "<frame name='f' attached_to='g'><pose relative_to='table'/></frame>"
+            "<frame name='g' attached_to='f'><pose relative_to='table'/></frame>",
+            "attached to each other in a circle: f -> g -> f",
+        ),
+    ],
+)
+def test_a_frame_that_nothing_uses_must_have_a_base(frames: str, sentence: str) -> None:
+    with pytest.raises(SdfError, match=re.escape(sentence)):
+        model(f"<link name='table'/>{frames}")
+
+
+def test_a_frame_of_the_world_must_have_a_base() -> None:
+    text = """<sdf version='1.9'><world name='w'>
+      <frame name='shelf' attached_to='tabel'><pose>0 0 1 0 0 0</pose></frame>
+      <model name='table'><static>1</static><link name='l'/></model></world></sdf>"""
+    with pytest.raises(SdfError, match=r"f\.sdf:2: the world has no frame 'tabel'; did you mean 'table'"):
+        read_world(text, "f.sdf", Diagnostics())
+    assert read_world(text.replace("tabel", "table"), "f.sdf", Diagnostics()).models[0].name == "table"
+
+
+def test_a_frame_on_an_include_that_is_not_found_is_no_second_fault() -> None:
+    text = """<sdf version='1.9'><world name='w'><frame name='f' attached_to='gone'/>
+      <include><uri>model://no_such_model</uri><name>gone</name></include>
+      <model name='table'><static>1</static><link name='l'/></model></world></sdf>"""
+    assert [each.name for each in read_world(text, "f.sdf", Diagnostics()).models] == ["table"]
