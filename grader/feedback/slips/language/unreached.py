@@ -58,10 +58,12 @@ def _spins(statement: ast.stmt) -> bool:
 def behind_spin(tree: ast.AST) -> Iterator[Place]:
     """Find what is called behind spin(), also in the `finally` of a `try` that spins.
 
-    Right behind spin(), a cancel() that stands nowhere else and a function that publishes are no clearing up.
+    Right behind spin(), a cancel() that stands nowhere else and a function that publishes are no clearing up. A last
+    message from `except` or `finally`, such as a stop, is, where the file publishes at other places, too.
     """
     awaited = {each.name for each in functions(tree) if "publish" in called(each)}
     awaited |= {"cancel"} if sum(name == "cancel" for _, name in calls(tree)) == 1 else set()
+    published = sum(name == "publish" for _, name in calls(tree))
     for block in blocks(tree):
         spins = [i for i, statement in enumerate(block) if _spins(statement)]
         after = block[spins[0] + 1 :] if spins else []
@@ -69,8 +71,10 @@ def behind_spin(tree: ast.AST) -> Iterator[Place]:
         for each in block:
             if isinstance(each, ast.Try) and any(_spins(statement) for statement in each.body):
                 after += [*(part for handler in each.handlers for part in handler.body), *each.finalbody]
+        last = sum(name == "publish" for statement in after for _, name in calls(statement))
+        clearing_up = HARMLESS | {"publish"} if published > last else HARMLESS
         for statement in after:
-            harmless = HARMLESS - awaited if id(statement) in meant else HARMLESS
+            harmless = HARMLESS - awaited if id(statement) in meant else clearing_up
             if lost := [name for _, name in calls(statement) if name not in harmless]:
                 yield (
                     statement.lineno,
