@@ -111,18 +111,12 @@ FORBIDDEN |= {
 # Exceptions: a room may import these, whatever is forbidden above.
 ALLOWED = {room: (room, *others) for room, others in USES.items()} | {room: (room,) for room in (AGENT, *GRADERS)}
 # What every room may import.
-FOR_ALL = tuple(
-    f"sim/{name}"
-    for name in (
-        "child_end",
-        "did_you_mean",
-        "error_text",
-        "foreign_variables",
-        "jupyter_proxy",
-        "orphan_watch",
-        "terminal_text",
-    )
+FOR_ALL = (
+    *("sim/child_end", "sim/did_you_mean", "sim/error_text", "sim/foreign_variables", "sim/jupyter_proxy"),
+    *("sim/orphan_watch", "sim/terminal_text"),
 )
+# The actions of launch files that a package brings.
+ACTIONS = {"sim/bridge/ros_gz_bridge/actions": ("sim/ros/launch", "sim/ros/launch_ros")}
 # A module that starts a program and imports how: what the program itself imports is another process.
 PROGRAMS = {"grader/run/sandbox/level": "grader/run/sandbox/probe"}
 NO_ROS_MESSAGES = ("sim/gz", "grader/feedback", "grader/score", "grader/report", *GRADERS)
@@ -136,7 +130,7 @@ def rooms_of(name):
 def is_forbidden(name, imported):
     if below(imported, *PUBLIC_NAMES, *(package.rpartition("/")[2] for package in PACKAGES), "public"):
         return True
-    if below(imported, *FOR_ALL):
+    if below(imported, *FOR_ALL) or any(below(name, room) and below(imported, *ACTIONS[room]) for room in ACTIONS):
         return False
     for room in rooms_of(name):
         if below(imported, *FORBIDDEN[room]) and not below(imported, *ALLOWED.get(room, ())):
