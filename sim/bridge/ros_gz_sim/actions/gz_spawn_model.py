@@ -25,6 +25,4 @@ class GzSpawnModel(LaunchFileAction):
         "allow_renaming": "False",
         **dict.fromkeys(_POSE, "0.0"),
     }
-        dict.fromkeys(_TEXTS, "") | {"allow_renaming": "False"} | dict.fromkeys(_POSE, "0.0")
-    )
     called: ClassVar[Mapping[str, str]] = {"roll": "R", "pitch": "P", "yaw": "Y"}
