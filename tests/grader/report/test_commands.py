@@ -8,7 +8,7 @@ from xml.etree import ElementTree as XML
 import pytest
 
 FILES = {"--json": "report.json", "--html": "report.html", "--gradescope": "results.json", "--junit": "junit.xml"}
-HOST_KEYS = ["sandbox", "pace", "run_wall_seconds", "wall_seconds", "real_time_factor"]
+HOST_KEYS = ["sandbox", "pace", "run_wall_seconds", "wall_seconds", "limits", "real_time_factor"]
 
 
 def wanted(folder):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gz_course.sim.ros.launch.logging as launch_logging
 from gz_course.sim.ros.launch.launch_context import LaunchContext
-from gz_course.sim.ros.launch.substitutions.path_join_substitution import Divisible
+from gz_course.sim.ros.launch.substitutions.divisible import Divisible
 
 
 class LaunchLogDir(Divisible):

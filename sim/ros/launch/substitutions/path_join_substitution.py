@@ -15,14 +15,7 @@ from gz_course.sim.ros.launch.utilities import (
 )
 
 
-class Divisible(Substitution):
-    """A path; `/` adds a component to it. Source: ros2/launch, release 3.4.9 (pull request 918)"""
-
-    def __truediv__(self, component: SomeSubstitutionsType) -> PathJoinSubstitution:
-        return PathJoinSubstitution([self, component])
-
-
-class PathJoinSubstitution(Divisible):
+class PathJoinSubstitution(Substitution):
     """Components joined with `/`; each is text, a substitution, or a list of them that forms one component.
 
     `PathJoinSubstitution([...]) / "more"` adds a component.

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gz_course.sim.ros.launch.launch_context import LaunchContext
+from gz_course.sim.ros.launch.substitutions.divisible import Divisible
 from gz_course.sim.ros.launch.substitutions.local_substitution import local_value
-from gz_course.sim.ros.launch.substitutions.path_join_substitution import Divisible
 
 CURRENT_FOLDER = "current_launch_file_directory"
 

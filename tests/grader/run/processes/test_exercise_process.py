@@ -95,7 +95,7 @@ def test_its_orders_and_reports_are_seen_by_nobody_else(started, level):
     assert not any("ESCAPED" in line for line in lines), lines
     assert processes.beside.ready and processes.beside.reports == [f'{{"event": "got", "word": "{SECRET}"}}']
     until(processes, lambda _: any(p.number == NUMBER and p.progress for p in processes.participants))
-    assert "printed" in processes.beside.lines
+    until(processes, lambda _: "printed" in processes.beside.lines)
     assert [p.number for p in processes.participants] == [NUMBER]  # and nobody in its name
 
 

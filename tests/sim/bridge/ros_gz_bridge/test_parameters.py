@@ -133,7 +133,7 @@ def test_it_starts_with_what_can_be_bridged(start, tmp_path):
     file.write_text(PARAMETERS)
     process = start(GOOD, "/b@std_msgs/msg/Bol@gz.msgs.Boolean", "--ros-args", "-p", f"config_file:={file}")
     process.wait_for("ready: 1 bridge")
-    process.wait_for("bridges are given on the command line, so")
+    process.wait_for("topics are given on the command line, so")
     process.wait_for("[ERROR]")
     assert process.stop() == 0
 
