@@ -12,7 +12,13 @@ from typing import Any
 
 DOMAIN = "ROS_DOMAIN_ID"
 
-_own = os.environ.get(DOMAIN, "")  # before the submission can change it
+_own = ""
+
+
+def begin() -> None:
+    """Note the domain of the run, before the submission can change the variable."""
+    global _own
+    _own = os.environ.get(DOMAIN, "")
 
 
 def mark(endpoint: Any, node: Any) -> None:
