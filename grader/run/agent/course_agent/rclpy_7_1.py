@@ -100,7 +100,6 @@ def install() -> None:
     global _monitor
     if found := misfits(RELIED_UPON):
         raise ImportError(f"this rclpy cannot be kept in step: {found[0]}")
-    other_domains.begin()
     topics = json.loads(os.environ.get(TOPICS, "{}"))
     _monitor = ExecutorMonitor(channel(), topics, bool(os.environ.get(HOLD)))
     _monitor.listen()  # in a thread that is not watched

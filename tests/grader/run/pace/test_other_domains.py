@@ -1,5 +1,9 @@
 """Nodes of a submission in other ROS domains: the grader waits for nothing of theirs, and all stay in step."""
 
+import os
+import subprocess
+import sys
+
 from gz_course.grader.run.pace.real_time import MATCHING, RealTime
 
 APART = """
@@ -89,3 +93,19 @@ def test_what_never_matches_is_waited_for_once(play, monkeypatch):
     monkeypatch.setattr(RealTime, "await_matches", noted)
     run = play(simulated=True, kept=True, demanding=demanding)
     assert (run.heard, run.pace.paced_ticks, sum(waits)) == (["go on"] * 10, 0, 1)
+
+
+def test_the_domain_of_the_run_is_not_what_the_submission_makes_of_it(root):
+    code = f"""
+import os, sys
+sys.path.insert(0, {str(root / "grader/run/agent")!r})
+from course_agent import import_hooks, other_domains
+import_hooks.install()
+os.environ["ROS_DOMAIN_ID"] = "7"
+from types import SimpleNamespace
+node = lambda domain: SimpleNamespace(context=SimpleNamespace(get_domain_id=lambda: domain))
+print(other_domains.apart(node(5)), "|", other_domains.apart(node(7)))
+"""
+    environment = os.environ | {"ROS_DOMAIN_ID": "5"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert done.stdout == " |  in domain 7\n", done.stderr
