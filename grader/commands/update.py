@@ -19,6 +19,7 @@ def command(
     """Bring newer chapters and exercises to your folder. What you have changed stays as it is."""
     folder = folder or course_root()
     changes = update(folder)
-    print(*changes.lines, sep="\n", end="\n" if changes.lines else "")
+    for line in changes.lines:
+        print(line)
     if changes == type(changes)():
         print(f"{folder} is up to date.")

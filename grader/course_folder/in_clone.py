@@ -67,7 +67,8 @@ def main() -> int:
     except UsageError as error:
         print(printable(str(error)), file=sys.stderr)
         return 2
-    print(*changes.lines, sep="\n", end="\n" if changes.lines else "")
+    for line in changes.lines:
+        print(line)
     return 0
 
 

@@ -20,16 +20,16 @@ import numpy as np
 from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics.joint_axis import find_axes
 from gz_course.sim.gz.sim.physics.servos import VELOCITY, WHEEL, JointServo
-from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Joint, Model
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Joint, Model
 
-_TOLERANCE = 1e-6  # relative, of an effort or a velocity
+_FULL = 1.0 + 1e-6  # of an effort or a velocity: more is too much
 _MOST_SOLUTIONS = 4  # of one step: servos that give way load others
 
 
 @dataclass(slots=True)
 class _Servo:
     """A velocity servo: its actuator, the degree of freedom that it moves, its largest force [N m or N] and command
-    [rad/s or m/s], and its gain.
+    [rad/s or m/s], its gain, and the error of the velocity [rad/s or m/s] that takes the whole force.
     """
 
     actuator: int
@@ -37,20 +37,19 @@ class _Servo:
     effort: float
     fastest: float
     gain: float = 0.0
-
-    def force(self, control: float, speed: float) -> float:
-        """Return the force of a step that ended with a speed; it was implicit in the speed."""
-        wanted = min(max(control, -self.fastest), self.fastest)
-        return self.gain * (wanted - speed)
+    most: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
 class _Speed:
-    """The largest velocity [rad/s or m/s] of a degree of freedom whose place in qpos is `position`."""
+    """The largest velocity [rad/s or m/s] of a degree of freedom whose place in qpos is `position`, and the velocity
+    beyond which it is slowed down.
+    """
 
     dof: int
     position: int
     most: float
+    beyond: float
 
 
 class JointLimits:
@@ -65,7 +64,6 @@ class JointLimits:
     ) -> None:
         """Find the joints with limits. `servos` are those of the systems, by model."""
         self._servos: list[_Servo] = []
-        self._strong: list[tuple[int, int, float]] = []  # actuator, dof, and the error that takes the whole effort
         self._speeds: list[_Speed] = []
         for owner in models:
             for joint in owner.joints:
@@ -73,8 +71,8 @@ class JointLimits:
             for servo in servos.get(owner.name, ()):
                 self._find_servo(model, owner, servo)
         # Views, because making one takes as long as using it.
-        self._qpos, self._qvel, self._warm = data.qpos, data.qvel, data.qacc_warmstart
-        self._state = [(view, view.copy()) for view in (self._qpos, self._qvel, self._warm)]
+        self._qpos, self._qvel = data.qpos, data.qvel
+        self._state = [(view, view.copy()) for view in (self._qpos, self._qvel, data.qacc_warmstart)]
         self._ctrl = data.ctrl
         self._impulse, self._change = np.zeros((1, model.nv)), np.zeros((1, model.nv))
 
@@ -87,57 +85,76 @@ class JointLimits:
         """Read the gains, which systems set when they are bound."""
         for servo in self._servos:
             servo.gain = model.actuator_gainprm.item(servo.actuator, 0)
-        self._strong = [(each.actuator, each.dof, each.effort / max(each.gain, 1e-300)) for each in self._servos]
+            servo.most = servo.effort * _FULL / servo.gain if servo.gain else math.inf
 
     def advance(self, model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None] | None = None) -> None:
         """Step a model; `between` is called between the two halves of the step, perhaps more than once."""
-        if self._strong:
+        if self._servos:
+            begin = data.time
             for view, kept in self._state:
                 kept[:] = view
-        if between is None:
-            mujoco.mj_step(model, data)
-        else:
-            _step_in_halves(model, data, between)
-        qvel, ctrl = self._qvel.item, self._ctrl.item
-        for actuator, dof, error in self._strong:
-            if not -error <= ctrl(actuator) - qvel(dof) <= error:
-                self._give_way(model, data, between)
-                break
+        _step(model, data, between)
+        if self._servos and (weak := self._too_weak()):
+            self._give_way(model, data, weak, begin, between)
+        qvel = self._qvel.item
         for limit in self._speeds:
-            if not -limit.most <= qvel(limit.dof) <= limit.most:
+            if not -limit.beyond <= qvel(limit.dof) <= limit.beyond:
                 self._slow_down(model, data, limit)
 
-    def _give_way(self, model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None] | None) -> None:
-        """Repeat the step with the largest force of each servo that would have needed more."""
-        begin = data.time - model.opt.timestep
+    def _too_weak(self) -> list[tuple[_Servo, float]]:
+        """Return the servos that would have needed more than their effort in the last step, and how much they missed.
+
+        The force of a step is implicit in the velocity with which it ends.
+        """
+        qvel, ctrl, found = self._qvel.item, self._ctrl.item, []
+        for servo in self._servos:
+            wanted, fastest = ctrl(servo.actuator), servo.fastest
+            if not -fastest <= wanted <= fastest:
+                wanted = math.copysign(fastest, wanted)
+            error = wanted - qvel(servo.dof)
+            if not -servo.most <= error <= servo.most:
+                found.append((servo, error))
+        return found
+
+    def _give_way(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        weak: Sequence[tuple[_Servo, float]],
+        begin: float,
+        between: Callable[[], None] | None,
+    ) -> None:
+        """Repeat the step from its `begin` [s], with the largest force of each servo that would have needed more."""
         saturated: dict[int, _Servo] = {}
         for _ in range(_MOST_SOLUTIONS):
-            found = False
-            for servo in self._servos:
-                force = servo.force(self._ctrl.item(servo.actuator), self._qvel.item(servo.dof))
-                if servo.actuator in saturated or abs(force) <= servo.effort * (1.0 + _TOLERANCE):
-                    continue
-                saturated[servo.actuator] = servo
-                bias = model.actuator_biasprm[servo.actuator]
-                model.actuator_gainprm[servo.actuator, 0], bias[2] = 0.0, 0.0
-                bias[0], found = math.copysign(servo.effort, force), True
-            if not found:
+            more = [(servo, error) for servo, error in weak if servo.actuator not in saturated]
+            if not more:
                 break
+            for servo, error in more:
+                self._push(model, servo, math.copysign(servo.effort, error))
+                saturated[servo.actuator] = servo
             for view, kept in self._state:
-                np.copyto(view, kept)
+                view[:] = kept
             data.time = begin
-            if between is None:
-                mujoco.mj_step(model, data)
-            else:
-                _step_in_halves(model, data, between)
-        for actuator, servo in saturated.items():
-            model.actuator_gainprm[actuator, 0] = servo.gain
-            model.actuator_biasprm[actuator, 0], model.actuator_biasprm[actuator, 2] = 0.0, -servo.gain
+            _step(model, data, between)
+            weak = self._too_weak()
+        for servo in saturated.values():
+            self._hold(model, servo)
+
+    @staticmethod
+    def _push(model: mujoco.MjModel, servo: _Servo, force: float) -> None:
+        """Let an actuator apply a force [N m or N] instead of holding a velocity."""
+        model.actuator_gainprm[servo.actuator, 0] = 0.0
+        model.actuator_biasprm[servo.actuator, 0], model.actuator_biasprm[servo.actuator, 2] = force, 0.0
+
+    @staticmethod
+    def _hold(model: mujoco.MjModel, servo: _Servo) -> None:
+        """Let an actuator hold a velocity again."""
+        model.actuator_gainprm[servo.actuator, 0] = servo.gain
+        model.actuator_biasprm[servo.actuator, 0], model.actuator_biasprm[servo.actuator, 2] = 0.0, -servo.gain
 
     def _slow_down(self, model: mujoco.MjModel, data: mujoco.MjData, limit: _Speed) -> None:
         speed = self._qvel.item(limit.dof)
-        if abs(speed) <= limit.most * (1.0 + _TOLERANCE):
-            return
         excess = speed - math.copysign(limit.most, speed)
         self._impulse[0, limit.dof] = 1.0
         mujoco.mj_solveM(model, data, self._change, self._impulse)
@@ -149,34 +166,24 @@ class JointLimits:
         found = find_axes(model, f"{owner.name}::{joint.name}")
         for axis, stated in zip(found, (joint.axis, joint.axis2), strict=False):
             if stated is not None and axis.part < 0 and 0.0 <= stated.velocity < UNLIMITED:
-                self._speeds.append(_Speed(axis.velocity, axis.position, stated.velocity))
+                most = stated.velocity
+                self._speeds.append(_Speed(axis.velocity, axis.position, most, most * _FULL))
 
     def _find_servo(self, model: mujoco.MjModel, owner: Model, servo: JointServo) -> None:
-        axis, effort = stated_axis(owner, servo), effort_of(owner, servo)
-        if axis is None or servo.kind not in (WHEEL, VELOCITY) or not effort < UNLIMITED:
+        effort = servo.most_force(owner)
+        if servo.kind not in (WHEEL, VELOCITY) or not effort < UNLIMITED:
             return
         axes = find_axes(model, f"{owner.name}::{servo.joint}")
         actuator = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, f"{owner.name}::{servo.actuator}")
         if actuator >= 0 and servo.axis < len(axes):
-            self._servos.append(_Servo(int(actuator), axes[servo.axis].velocity, effort, axis.velocity))
-
-
-def stated_axis(model: Model, servo: JointServo) -> Axis | None:
-    """Return the axis that a servo moves, as the file describes it."""
-    joint = model.joint(servo.joint)
-    return None if joint is None else joint.axis2 if servo.axis else joint.axis
-
-
-def effort_of(model: Model, servo: JointServo) -> float:
-    """Return the largest force [N m or N] of a servo or motor: its own limit or that of the joint."""
-    axis = stated_axis(model, servo)
-    return servo.effort if axis is None else min(servo.effort, axis.effort)
+            dof = axes[servo.axis].velocity
+            self._servos.append(_Servo(int(actuator), dof, effort, servo.most_speed(owner)))
 
 
 def tell_what_stands(model: Model, servos: Iterable[JointServo], diagnostics: Diagnostics) -> None:
     """Warn about each driven joint that a limit of 0 keeps from moving."""
     for servo in servos:
-        joint, axis = model.joint(servo.joint), stated_axis(model, servo)
+        joint, axis = model.joint(servo.joint), servo.stated(model)
         if joint is None or axis is None:
             continue
         for word, value, unit in (("velocity", axis.velocity, "speed"), ("effort", axis.effort, "force")):
@@ -188,7 +195,10 @@ def tell_what_stands(model: Model, servos: Iterable[JointServo], diagnostics: Di
                 )
 
 
-def _step_in_halves(model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None]) -> None:
+def _step(model: mujoco.MjModel, data: mujoco.MjData, between: Callable[[], None] | None) -> None:
+    if between is None:
+        mujoco.mj_step(model, data)
+        return
     mujoco.mj_step1(model, data)
     between()
     mujoco.mj_step2(model, data)

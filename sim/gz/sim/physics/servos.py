@@ -15,7 +15,7 @@ import mujoco
 
 from gz_course.sim.gz.sim.physics import recipe
 from gz_course.sim.gz.sim.physics.joint_axis import JointAxis, axis_name, find_axes
-from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Model
+from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Axis, Model
 
 WHEEL = "wheel"
 """A velocity servo for wheels that carry a robot; its torque is limited by the traction (see `recipe`)."""
@@ -59,11 +59,24 @@ class JointServo:
         """Return the scoped name of the actuator; requests with the same name share one."""
         return axis_name(self.joint, self.axis) + _SUFFIX[self.kind]
 
+    def stated(self, model: Model) -> Axis | None:
+        """Return the axis as the file describes it; None if the model has no such joint or axis."""
+        joint = model.joint(self.joint)
+        return None if joint is None else joint.axis2 if self.axis else joint.axis
+
+    def most_force(self, model: Model) -> float:
+        """Return the largest force [N m or N]: its own limit or that of the joint."""
+        axis = self.stated(model)
+        return self.effort if axis is None else min(self.effort, axis.effort)
+
+    def most_speed(self, model: Model) -> float:
+        """Return the largest velocity [rad/s or m/s] of the joint."""
+        axis = self.stated(model)
+        return math.inf if axis is None else axis.velocity
+
 
 def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -> None:
     """Add the actuator of a servo; `name` is the MuJoCo name of the joint."""
-    joint = model.joint(servo.joint)
-    assert joint is not None
     target = axis_name(name, servo.axis)
     if spec.joint(target) is None:
         return  # Loop joints and joints of static links have no MuJoCo joint.
@@ -75,9 +88,7 @@ def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -
         actuator.set_to_velocity(kv=0.0)  # `find_drive` sets the gain once the inertia is known.
     else:
         actuator.set_to_motor()
-    axis = joint.axis2 if servo.axis else joint.axis
-    effort = min(servo.effort, axis.effort if axis is not None else math.inf)
-    velocity = axis.velocity if axis is not None else math.inf
+    effort, velocity = servo.most_force(model), servo.most_speed(model)
     if servo.kind in (WHEEL, VELOCITY):  # `joint_limits` keeps the effort of these
         if velocity < UNLIMITED:
             actuator.ctrllimited = mujoco.mjtLimited.mjLIMITED_TRUE
@@ -142,7 +153,4 @@ def find_drive(mj_model: mujoco.MjModel, model: Model, servo: JointServo) -> Dri
         gain = recipe.servo_gain(inverse_inertia, float(mj_model.opt.timestep))
         mj_model.actuator_gainprm[control, 0] = gain
         mj_model.actuator_biasprm[control, 2] = -gain
-    joint = model.joint(servo.joint)
-    stated = (joint.axis2 if servo.axis else joint.axis) if joint is not None else None
-    fastest = stated.velocity if stated is not None else math.inf
-    return Drive(control, axis, min(fastest, MAX_WHEEL_SPEED if servo.kind == WHEEL else FASTEST))
+    return Drive(control, axis, min(servo.most_speed(model), MAX_WHEEL_SPEED if servo.kind == WHEEL else FASTEST))

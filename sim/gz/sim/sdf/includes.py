@@ -89,6 +89,11 @@ class Includes:
         self.empty: set[str] = set()
         """Names of the models of the world that hold nothing but such includes, and are left out."""
 
+    @property
+    def found_all(self) -> bool:
+        """Whether every model is there that a file has included so far."""
+        return not (self.skipped or self.empty)
+
     def open(self, child: Element, version: Version, chain: tuple[Path, ...]) -> Opened | None:
         """Return `child`, or for an `<include>` the included element with its overrides.
 

@@ -86,7 +86,7 @@ class ModelReader:
             if joint.tag == "joint" and not joint_to_skipped(joint, scope, self._includes, self._diagnostics):
                 model.joints.append(read_joint(joint, scope, model, part.version, self._diagnostics))
         check_mimics(model)
-        if not (self._includes.skipped or self._includes.empty):  # else a base may be what was not found
+        if self._includes.found_all:  # else a base may be what was not found
             scope.check()
         pose, base = pose_and_base(element)
         placement = element.attributes.get("placement_frame", "")

@@ -168,7 +168,7 @@ class _WorldReader:
         for part in joints:
             if not joint_to_skipped(part.element, scope, self._includes, self._diagnostics):
                 description.joints.append(read_world_joint(part.element, scope, description.models, part.version))
-        if not (self._includes.skipped or self._includes.empty):  # else a base may be what was not found
+        if self._includes.found_all:  # else a base may be what was not found
             scope.check()
         held = {end.partition("::")[0] for joint in description.joints for end in (joint.parent, joint.child)}
         for model in description.models:

@@ -79,7 +79,7 @@ class DiffDrive(System):
         if both:
             text = f"DiffDrive of model '{scope.full_name}' has joint '{both[0]}' on the left and on the right; "
             world.diagnostics.warn(element.where, f"{text}name another joint in one of them")
-        self._slowest = min((_limit(model, name) for side in self._sides for name in side), default=(math.inf, ""))
+        self._most, self._slowest = min(_limit(model, name) for side in self._sides for name in side)
         self._odometry = WheelOdometry(separation, radius)
 
     @property
@@ -189,13 +189,13 @@ class DiffDrive(System):
         turn = angular * self._half_separation
         left_speed = (linear - turn) / self._radius
         right_speed = (linear + turn) / self._radius
-        fastest, wheel = self._slowest
-        if max(abs(left_speed), abs(right_speed)) > fastest > 0.0:
+        asked = max(abs(left_speed), abs(right_speed))
+        if asked > self._most > 0.0:
             self._world.diagnostics.warn_once(
-                f"{self.command_topic} {wheel}",
+                f"{self.command_topic} {self._slowest}",
                 "",
-                f"a command on {self.command_topic} asks for {max(abs(left_speed), abs(right_speed)):.3g} rad/s of a "
-                f"wheel, but joint '{wheel}' has the limit velocity {fastest:g} rad/s; the wheels turn no faster",
+                f"a command on {self.command_topic} asks for {asked:.3g} rad/s of a wheel, but joint "
+                f"'{self._slowest}' has the limit velocity {self._most:g} rad/s; the wheels turn no faster",
             )
         if not (
             -MAX_WHEEL_SPEED <= left_speed <= MAX_WHEEL_SPEED and -MAX_WHEEL_SPEED <= right_speed <= MAX_WHEEL_SPEED
