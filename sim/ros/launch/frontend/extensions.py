@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import contextlib
 
-# Ours, loaded when a file is.
-EXTENSIONS = {
-    "launch_ros": "gz_course.sim.ros.launch_ros",
-    "ros_gz_sim": "gz_course.sim.bridge.ros_gz_sim.actions",
-    "ros_gz_bridge": "gz_course.sim.bridge.ros_gz_bridge.actions",
-}
+EXTENSIONS = ("launch_ros",)  # ours, loaded when a file is
 
 
 def load_foreign_extensions() -> None:

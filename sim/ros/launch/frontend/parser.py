@@ -58,8 +58,8 @@ class Parser:
         """Load the packages that bring actions and substitutions."""
         if not Parser.extensions_loaded:
             Parser.extensions_loaded = True
-            for module in EXTENSIONS.values():
-                importlib.import_module(module)
+            for name in EXTENSIONS:
+                importlib.import_module(f"{_SIM}.{name}")
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
