@@ -7,16 +7,26 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping, MutableMapping
+from collections.abc import Callable, Mapping, MutableMapping
 from pathlib import Path
 
 MIDDLEWARE = "rmw_fastrtps_cpp"
-PROTOBUF = ("python", "upb")
+_RMW = "RMW_IMPLEMENTATION"
 # Source: mujoco/gl_context.py and rerun_sdk/rerun of the wheels
 ON, OFF = ("1", "true", "on", "enable", "enabled"), ("0", "false", "off", "disable", "disabled")
-GRAPHICS = ("", "glfw", "egl", "osmesa", *ON, *OFF)
-_MUJOCO, _RERUN = "MUJOCO_GL", "RERUN"
-_RMW, _PROTOBUF = "RMW_IMPLEMENTATION", "PROTOCOL_BUFFERS_PYTHON_IMPLEMENTATION"
+# Variable -> whether a value of it holds here; and why another does not.
+RULES: Mapping[str, tuple[Callable[[str], bool], str]] = {
+    _RMW: (lambda value: value in ("", MIDDLEWARE), f"the wheels of ROS bring {MIDDLEWARE} only"),
+    "PROTOCOL_BUFFERS_PYTHON_IMPLEMENTATION": (
+        lambda value: value in ("", "python", "upb"),
+        "protobuf has python and upb here",
+    ),
+    "MUJOCO_GL": (
+        lambda value: value.strip().lower() in ("", "glfw", "egl", "osmesa", *ON, *OFF),
+        "MuJoCo knows glfw, egl and osmesa",
+    ),
+    "RERUN": (lambda value: value.lower() not in OFF, "every run is recorded"),
+}
 
 
 def set_aside(program: str, *, ros: bool = True) -> None:
@@ -31,22 +41,12 @@ def removed(environment: MutableMapping[str, str], *, ros: bool = True) -> list[
     A middleware that a sourced ROS 2 brings is left alone.
     """
     sentences = []
-    middleware = environment.get(_RMW, "")
-    if ros and middleware not in ("", MIDDLEWARE) and not _is_sourced(middleware, environment):
-        del environment[_RMW]
-        sentences.append(f"{_RMW}={middleware} is ignored: the wheels of ROS bring {MIDDLEWARE} only")
-    implementation = environment.get(_PROTOBUF, "")
-    if implementation not in ("", *PROTOBUF):
-        del environment[_PROTOBUF]
-        sentences.append(f"{_PROTOBUF}={implementation} is ignored: protobuf has {' and '.join(PROTOBUF)} here")
-    graphics = environment.get(_MUJOCO, "")
-    if graphics.strip().lower() not in GRAPHICS:
-        del environment[_MUJOCO]
-        sentences.append(f"{_MUJOCO}={graphics} is ignored: MuJoCo knows glfw, egl and osmesa")
-    recording = environment.get(_RERUN, "")
-    if recording.lower() in OFF:
-        del environment[_RERUN]
-        sentences.append(f"{_RERUN}={recording} is ignored: every run is recorded")
+    for name, (holds, why) in RULES.items():
+        value = environment.get(name, "")
+        if holds(value) or (name == _RMW and (not ros or _is_sourced(value, environment))):
+            continue
+        del environment[name]
+        sentences.append(f"{name}={value} is ignored: {why}")
     return sentences
 
 

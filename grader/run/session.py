@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,7 +26,7 @@ from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.processes.exercise_process import ExerciseProcess
 from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import AUTO, Sandbox
-from gz_course.grader.run.sandbox.environment import OF_ROS
+from gz_course.grader.run.sandbox.environment import in_force
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.submission import Submission
 from gz_course.sim.bridge.ros_gz_bridge.qos_profile import reliable
@@ -101,7 +99,7 @@ def run(
             stack.callback(beside.close)
         processes = SubmissionProcesses(command, sandbox, topics, variables, shown=str(folder), beside=beside)
         stack.callback(processes.close)
-        stack.enter_context(_environment(sandbox.grader_environment()))
+        stack.enter_context(in_force(sandbox.grader_environment()))
 
         with many_imports():
             leave_out_generator()
@@ -121,24 +119,3 @@ def run(
             facts = loop.run(recorder)
             write_properties(recorder, exercise, submission, trial, plan.facts | facts)
         return RunResult(recorder, sandbox.level, loop.pace_name, loop.wall_seconds)
-
-
-@contextlib.contextmanager
-def _environment(values: dict[str, str]) -> Iterator[None]:
-    """Set the environment variables that ROS and DDS read, for as long as a run lasts, and no other of theirs.
-
-    A discovery server, a profile or another middleware of the caller's would keep the grader from seeing the nodes.
-    """
-    others = [key for key in os.environ if key.startswith(OF_ROS) and key not in values]
-    before = {key: os.environ.get(key) for key in (*values, *others)}
-    for key in others:
-        del os.environ[key]
-    os.environ.update(values)
-    try:
-        yield
-    finally:
-        for key, value in before.items():
-            if value is None:
-                os.environ.pop(key, None)
-            else:
-                os.environ[key] = value

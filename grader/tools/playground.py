@@ -42,6 +42,7 @@ from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
 from gz_course.grader.run.domain import Domain
 from gz_course.grader.run.fair_clock import FairClock, Patience
 from gz_course.grader.run.sandbox import ros_environment
+from gz_course.grader.run.sandbox.environment import in_force
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.sim import jupyter_proxy
 from gz_course.sim.did_you_mean import did_you_mean
@@ -182,8 +183,8 @@ class Playground:
             "GZ_PARTITION": f"playground-{self._domain.id}",
             "PYTHONUNBUFFERED": "1",
         }
-        self._before = {name: os.environ.get(name) for name in self.environment}
-        os.environ.update(self.environment)
+        self._variables = in_force(self.environment)
+        self._variables.__enter__()
         self._view: WorldView | None = None
         self._open = True
         Playground._opened = self
@@ -286,11 +287,7 @@ class Playground:
             for program in reversed(self.programs):
                 program.stop()
         finally:
-            for name, value in self._before.items():
-                if value is None:
-                    os.environ.pop(name, None)
-                else:
-                    os.environ[name] = value
+            self._variables.__exit__(None, None, None)
             self._domain.release()
             self._temporary.close()
 

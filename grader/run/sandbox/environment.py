@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+
+from gz_course.sim.foreign_variables import MIDDLEWARE
 
 KEPT_VARIABLES = ("PATH", "LANG", "LC_ALL", "TZ", "SSL_CERT_FILE")
 # Set by the ROS wheels when they restart Python; one without the other breaks `import rclpy`.
@@ -15,12 +19,34 @@ PROFILES = Path(__file__).parents[1] / "agent" / "fastdds"
 CONSOLE_FORMAT = "[{severity}] [{name}]: {message}"  # no wall-clock stamp, so that the same run gives the same lines
 
 
+@contextmanager
+def in_force(values: Mapping[str, str]) -> Iterator[None]:
+    """Set the environment variables of this process that ROS and DDS read, and no other of theirs; DDS reads them when
+    its context is made.
+
+    A discovery server, a profile or another middleware of the caller's would keep nodes from seeing each other.
+    """
+    others = [key for key in os.environ if key.startswith(OF_ROS) and key not in values]
+    before = {key: os.environ.get(key) for key in (*values, *others)}
+    for key in others:
+        del os.environ[key]
+    os.environ.update(values)
+    try:
+        yield
+    finally:
+        for key, value in before.items():
+            if value is None:
+                os.environ.pop(key, None)
+            else:
+                os.environ[key] = value
+
+
 def ros_environment(domain: int, log_dir: Path) -> dict[str, str]:
     """Return the variables that keep one run's ROS graph on this machine and in its own domain."""
     return {
         "ROS_DOMAIN_ID": str(domain),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
+        "RMW_IMPLEMENTATION": MIDDLEWARE,
         "FASTDDS_BUILTIN_TRANSPORTS": "UDPv4",
         "ROS_LOG_DIR": str(log_dir),
     }

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from gz_course.grader.tools.doctor.probe import Probes
 from gz_course.grader.tools.doctor.verdict import Verdict, failed, fine, warning
+from gz_course.sim.foreign_variables import MIDDLEWARE
 
 TITLE = "ROS 2 variables"
-MIDDLEWARE = "rmw_fastrtps_cpp"
 LARGEST_DOMAIN = 232  # DDS computes its UDP ports from it: 7400 + 250 * domain + ... must not exceed 65535
 LARGEST_SAFE_DOMAIN = 101  # above it the ports are ephemeral ones, which Linux gives to any outgoing connection
 RANGES = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
