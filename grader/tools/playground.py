@@ -31,11 +31,12 @@ import sys
 import threading
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import psutil
 
 from gz_course.grader.errors import UsageError
+from gz_course.grader.lessons.notebook import Classroom
 from gz_course.grader.printable import shown
 from gz_course.grader.process.load import crowded
 from gz_course.grader.process.temporary_folder import TemporaryFolder, sweep
@@ -48,6 +49,7 @@ from gz_course.sim import jupyter_proxy
 from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
+    from gz_course.grader.lessons.questions import Ask
     from gz_course.grader.report.html.replay import Replay
     from gz_course.grader.tools.live_frame import LiveFrame, WorldView
 
@@ -97,6 +99,11 @@ class Program:
     def exit_code(self) -> int | None:
         """Exit code; None while it runs, minus the signal's number if a signal ended it."""
         return self._process.poll()
+
+    @property
+    def stopped(self) -> bool:
+        """Has `stop` ended it?"""
+        return self._text is not None
 
     @property
     def output(self) -> str:
@@ -189,6 +196,8 @@ class Playground:
         self._open = True
         Playground._opened = self
         atexit.register(self.close)
+        self._classroom = Classroom(self, Path.cwd())
+        self._classroom.begin()
 
     @property
     def domain(self) -> int:
@@ -199,6 +208,11 @@ class Playground:
     def partition(self) -> str:
         """Its Gazebo partition (GZ_PARTITION)."""
         return self.environment["GZ_PARTITION"]
+
+    @property
+    def closed(self) -> bool:
+        """Has it been closed?"""
+        return not self._open
 
     @property
     def running(self) -> list[Program]:
@@ -269,6 +283,17 @@ class Playground:
         from gz_course.grader.report.html.replay import Replay
 
         return Replay(grade_again(Path(recording)))
+
+    def predict(self, name: str, choice: int | str | None = None) -> Ask:
+        """Ask what the next cell will show; `choice` is the number of an answer, or a line of text.
+
+        The answer is kept beside the notebook, and stands beside the output of the next cell. Raises UsageError.
+        """
+        return self._classroom.predict(name, choice)
+
+    def review(self, chapter: str, number: int = 0, choice: int | str | None = None) -> Any:
+        """Ask the questions of a chapter, or answer one of them by its number. Raises UsageError."""
+        return self._classroom.review(chapter, number, choice)
 
     def report(self) -> str:
         """Return which programs run and which have ended, with their output: to be read when no messages arrive."""

@@ -1,0 +1,69 @@
+"""The cells that the reader of chapter 3 writes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gz_course.grader.lessons.motion import Motion, motion_of
+from gz_course.grader.lessons.step import COMMANDS, Tried, expect, step
+
+SECONDS = 2.0  # of simulated time in which a motion is looked at
+SETTLED = 10  # poses from the moment that the robot is placed
+
+
+def motion(tried: Tried) -> Motion:
+    """Return how the robot moves in the middle of the room, away from the walls."""
+    tried.place("robot", 0.0, 0.0)
+    return motion_of(tried.poses("robot", SECONDS)[SETTLED:])
+
+
+@step("turn_right", objective=2, form=COMMANDS)
+def turn_right(tried: Tried) -> str:
+    """The robot turns on the spot, to the right, at 0.5 rad/s."""
+    moves = motion(tried)
+    seen, rate = f"The robot {moves}", moves.rate
+    expect(abs(moves.speed) < 0.03, f"{seen}; on the spot means 0 m/s.")
+    expect(rate < 0.05, f"{seen}, to the left; a turn to the right is negative.")
+    expect(abs(rate + 0.5) < 0.05, f"{seen}; -0.5 rad/s is wanted.")
+    return f"{seen}: to the right, on the spot."
+
+
+@step("stop", objective=3, form=COMMANDS)
+def stop(tried: Tried) -> str:
+    """The robot stands still."""
+    moves = motion(tried)
+    still = abs(moves.speed) < 0.02 and abs(moves.rate) < 0.02
+    expect(still, f"The robot still {moves}; it obeys the last command it got.")
+    return "The robot stands still."
+
+
+@step("circle", objective=2)
+def circle(tried: Tried) -> str:
+    """The robot drives a circle with a radius of 0.5 m, to the left."""
+    moves = motion(tried)
+    speed, rate = moves.speed, moves.rate
+    expect(abs(speed) > 0.05, f"The robot drives at {speed:.2f} m/s: too slowly to see a circle.")
+    expect(abs(rate) > 0.02, f"The robot drives at {speed:.2f} m/s straight on; a circle needs a turn.")
+    radius = speed / rate
+    expect(rate > 0, f"The robot turns to the right, at {rate:.2f} rad/s; the circle should go to the left.")
+    expect(
+        abs(radius - 0.5) < 0.05,
+        f"At {speed:.2f} m/s and {rate:.2f} rad/s the radius is {radius:.2f} m; 0.5 m is wanted.",
+    )
+    return f"The robot drives a circle to the left with a radius of {radius:.2f} m."
+
+
+@step("seconds_since", objective=4)
+def seconds_since(tried: Tried) -> str:
+    """seconds_since(start, now) is the time between two readings of a clock, in seconds."""
+    function = tried.function("seconds_since")
+    stamps: list[Any] = [each.clock for each in tried.heard("/clock", "rosgraph_msgs/msg/Clock", 20)]
+    start, now = tried.time(stamps[0]), tried.time(stamps[-1])
+    wanted = (now.nanoseconds - start.nanoseconds) / 1e9
+    said = function(start, now)
+    expect(isinstance(said, float | int), f"seconds_since returns a {type(said).__name__}; a number is wanted.")
+    expect(
+        abs(said - wanted) < 1e-6,
+        f"Two readings of /clock are {wanted:.3f} s apart; seconds_since says {said:g}.",
+    )
+    return f"Two readings of /clock are {wanted:.3f} s apart, and seconds_since says so."

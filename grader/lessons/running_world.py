@@ -1,0 +1,224 @@
+"""What a cell did, asked of what runs: the ROS graph, Gazebo's topics, the true poses of the world, commands.
+
+It uses contexts of ROS of its own, so that a cell may initialise and shut down rclpy as it likes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import importlib
+import math
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gz_course.grader.lessons.cell import EXTRA, own_words, run_commands
+from gz_course.grader.lessons.step import NotYet, Pose, Tried
+from gz_course.grader.process.load import crowded
+
+if TYPE_CHECKING:
+    from gz_course.grader.tools.playground import Playground, Program
+
+OF_EVERY_NODE = {"/rosout", "/parameter_events"}
+POSES = "/dynamic_pose/info"
+GRAPH = 1.0  # [s] in which the nodes of a graph find each other on an idle machine
+READY = 30.0  # [s] until a command says what it is waited for
+
+
+class RunningWorld(Tried):
+    """What a cell did in the playground of its notebook."""
+
+    def __init__(self, room: Playground, cell: tuple[str, str, str], names: dict[str, Any], folder: Path) -> None:
+        """`cell`: the name of its step, its text, and what it printed; `names`: the notebook's."""
+        step, self.body, self.output = cell
+        self._room, self._names, self.folder = room, names, folder
+        self._file = f"<step {step}>"
+
+    def value(self, name: str, kind: type | tuple[type, ...] = object) -> Any:
+        if name not in self._names or self._names[name] is ...:
+            raise NotYet(f"There is no `{name}` yet.")
+        value = self._names[name]
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds and object not in kinds):
+            wanted = " or ".join(each.__name__ for each in kinds)
+            raise NotYet(f"`{name}` is of type {type(value).__name__}; {wanted} is wanted.")
+        return value
+
+    def function(self, name: str) -> Callable[..., Any]:
+        found = self._names.get(name)
+        if not callable(found):
+            raise NotYet(f"There is no function `{name}` yet.")
+
+        @functools.wraps(found)
+        def called(*arguments: Any, **named: Any) -> Any:
+            with own_words(self._file):
+                return found(*arguments, **named)
+
+        return called
+
+    def command(self, command: str, deadline: float = 20.0) -> str:
+        return run_commands(command, self.folder, deadline)
+
+    def start(self, command: str, ready: str) -> str:
+        return self._started(command, ready).output
+
+    def _started(self, command: str, ready: str) -> Program:
+        self._open()
+        program = self._room.start(command, instead_of=" ".join(command.split()[:4]))
+        try:
+            program.wait_for(ready, READY)
+        except TimeoutError:
+            state = "runs" if program.exit_code is None else "has ended"
+            said = program.output.strip().splitlines()
+            program.stop()
+            last = f"; its last line is: {said[-1]}" if said else " and has printed nothing"
+            raise NotYet(f"`{command}` {state}{last}") from None
+        return program
+
+    def stop(self, command: str) -> str:
+        output = ""
+        for program in self._room.running:
+            if program.command.startswith(command):
+                program.stop()
+                output += program.output
+        return output
+
+    def heard(self, topic: str, message_type: str, count: int = 1, deadline: float = 10.0) -> list[Any]:
+        found = self._listen(topic, message_type, count, deadline)
+        if len(found) < count:
+            came = f"only {len(found)} of {count} messages came" if found else "no message came"
+            raise NotYet(f"On {topic} {came} within {deadline:g} s. Does what publishes there run?")
+        return found
+
+    def time(self, stamp: Any) -> Any:
+        from rclpy.clock import ClockType
+        from rclpy.time import Time
+
+        return Time.from_msg(stamp, clock_type=ClockType.ROS_TIME)
+
+    def silent(self, topic: str, message_type: str, seconds: float) -> bool:
+        return not self._listen(topic, message_type, 1, seconds)
+
+    def _listen(self, topic: str, message_type: str, count: int, deadline: float) -> list[Any]:
+        from rclpy.qos import qos_profile_sensor_data
+
+        found: list[Any] = []
+        with self._node() as (node, spin_until):
+            node.create_subscription(_message(message_type), topic, found.append, qos_profile_sensor_data)
+            spin_until(lambda: len(found) >= count, deadline)
+        return found[:count]
+
+    def topics(self) -> dict[str, list[str]]:
+        with self._node() as (node, spin_until):
+            spin_until(lambda: False, GRAPH * (EXTRA if crowded() else 1))
+            return {name: types for name, types in node.get_topic_names_and_types() if name not in OF_EVERY_NODE}
+
+    def publishers(self, topic: str) -> list[str]:
+        with self._node() as (node, spin_until):
+            spin_until(lambda: node.count_publishers(topic) > 0, GRAPH)
+            return sorted(each.node_name for each in node.get_publishers_info_by_topic(topic))
+
+    def gz_topics(self) -> list[str]:
+        from gz_course.sim.gz.transport.node import Node
+
+        self._open()
+        with Node() as node:
+            end = time.monotonic() + GRAPH
+            while not (found := node.topic_list()) and time.monotonic() < end:
+                pass  # each list asks the network, and waits for its answers
+        return sorted(found)
+
+    def poses(self, model: str, seconds: float = 0.0) -> list[Pose]:
+        return _poses(f"/world/{self._world()}{POSES}", model, seconds)
+
+    def place(self, model: str, x: float, y: float, yaw: float = 0.0) -> None:
+        z = self.poses(model)[-1].z
+        turn = f"orientation: {{z: {math.sin(yaw / 2)}, w: {math.cos(yaw / 2)}}}"
+        request = f'name: "{model}", position: {{x: {x}, y: {y}, z: {z}}}, {turn}'
+        types = "--reqtype gz.msgs.Pose --reptype gz.msgs.Boolean --timeout 5000"
+        self.command(f"gz service -s /world/{self._world()}/set_pose {types} --req '{request}'")
+
+    def _world(self) -> str:
+        for topic in self.gz_topics():
+            if topic.startswith("/world/") and topic.endswith(POSES):
+                return topic.removeprefix("/world/").removesuffix(POSES)
+        raise NotYet("No world runs; run the cell that starts `gz sim`.")
+
+    def recording(self) -> Any:
+        from gz_course.grader.record.reading import Recording
+
+        chapter = self.folder.name
+        path = self.folder.parents[1] / "runs" / chapter / f"{chapter}.rrd"
+        if not path.is_file():
+            raise NotYet(f"There is no recording yet; run the cell with `course grade {chapter}`.")
+        return Recording(path)
+
+    def _open(self) -> None:
+        if self._room.closed:
+            raise NotYet("The playground is closed; run the chapter's cells from the one that makes `room`.")
+
+    @contextlib.contextmanager
+    def _node(self) -> Iterator[tuple[Any, Callable[[Callable[[], bool], float], None]]]:
+        """Give a node of its own, and a function that spins it until something holds or some time [s] has passed."""
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.signals import SignalHandlerOptions
+
+        self._open()
+        context = rclpy.Context()
+        rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+        try:
+            node = rclpy.create_node("step", context=context, enable_rosout=False, start_parameter_services=False)
+            executor = SingleThreadedExecutor(context=context)
+            executor.add_node(node)
+
+            def spin_until(holds: Callable[[], bool], deadline: float) -> None:
+                end = time.monotonic() + deadline
+                while not holds() and (left := end - time.monotonic()) > 0:
+                    executor.spin_once(timeout_sec=min(left, 0.1))
+
+            yield node, spin_until
+            executor.shutdown()
+            node.destroy_node()
+        finally:
+            rclpy.shutdown(context=context)
+
+
+def _message(name: str) -> Any:
+    package, _, kind = name.partition("/msg/")
+    return getattr(importlib.import_module(f"{package}.msg"), kind)
+
+
+def _poses(topic: str, model: str, seconds: float) -> list[Pose]:
+    from gz_course.sim.gz.msgs.pose_v_pb2 import Pose_V
+    from gz_course.sim.gz.transport.node import Node
+
+    found: list[Pose] = []
+    names: set[str] = set()
+    came = threading.Condition()
+
+    def take(message: Any) -> None:
+        stamp = message.header.stamp
+        with came:
+            names.update(each.name for each in message.pose)
+            found.extend(_pose(stamp.sec + stamp.nsec / 1e9, each) for each in message.pose if each.name == model)
+            came.notify()
+
+    with Node() as node:
+        node.subscribe(Pose_V, topic, take)
+        with came:
+            while came.wait(READY):
+                if found and found[-1].time - found[0].time >= seconds:
+                    return list(found)
+                if names and model not in names:
+                    raise NotYet(f"The world has no model `{model}`; it has {', '.join(sorted(names))}.")
+    raise NotYet(f"The world said nothing of `{model}` for {READY:g} s. Is it paused?")
+
+
+def _pose(stamp: float, pose: Any) -> Pose:
+    q, p = pose.orientation, pose.position
+    yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+    return Pose(stamp, p.x, p.y, p.z, yaw)

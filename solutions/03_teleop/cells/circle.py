@@ -1,0 +1,1 @@
+drive(ahead=0.2, turn=0.4)
