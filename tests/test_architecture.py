@@ -174,7 +174,7 @@ def test_a_forbidden_arrow_is_seen():
         ("grader/grade", "ros_gz_bridge"),
         ("sim/gz/sim/world", "sensor_msgs/msg"),
         ("sim/gz/view/program", "sim/ros/rosidl"),
-        ("sim/ros/rosidl/cdr", "sim/show/rviz2"),
+        ("sim/ros/rosidl/cdr_reader", "sim/show/rviz2"),
         ("sim/bridge/ros_gz_sim/create", "sim/gz/sim/world"),
         ("sim/bridge/ros_gz_bridge/bridge", "mujoco"),
         ("sim/ros/ros2/topic", "sim/gz/transport"),

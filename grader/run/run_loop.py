@@ -30,7 +30,8 @@ from gz_course.grader.run.pace.lockstep import LockStep
 from gz_course.grader.run.pace.real_time import LOOK_ROUND, MATCHING, PATIENCE, RealTime
 from gz_course.grader.run.parameter_script import ParameterScript, record_parameter
 from gz_course.grader.run.processes.progress import Endpoint
-from gz_course.grader.run.processes.submission_processes import LONGEST_LINE, SHOWN_FOLDER, SubmissionProcesses
+from gz_course.grader.run.processes.submission_log import LONGEST_LINE, SHOWN_FOLDER
+from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.run.trial_world import load_trial_world
 from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
@@ -73,7 +74,7 @@ class RunLoop:
             stack.callback(node.close)
         self._world: World | None = None
         self._begin(plan, domain)
-        self._console = ConsoleLog(processes.folder, LONGEST_LINE, SHOWN_FOLDER.decode())
+        self._console = ConsoleLog(processes.log.folder, LONGEST_LINE, SHOWN_FOLDER.decode())
         self._ros = GraderEndpoints(
             domain,
             self._gz_nodes[1],
@@ -252,7 +253,7 @@ class RunLoop:
 
     def _collect(self) -> None:
         """Take over what the submission's processes said and did since the last call."""
-        for line in self._processes.take_lines():
+        for line in self._processes.log.take_lines():
             self._take(line)
         self._endpoints.look()
         if self._processes.layout != self._layout:
@@ -325,7 +326,7 @@ class RunLoop:
             **({"kept": sorted(self._kept)} if self._kept else {}),
             "dropped": dropped,
             "too_early": self._pace.too_early(),
-            "lines_dropped": self._processes.dropped_lines,
+            "lines_dropped": self._processes.log.dropped_lines,
             "messages_not_recorded": {t: n - MOST_MESSAGES for t, n in self._messages.items() if n > MOST_MESSAGES},
             "hid": self._processes.hid,
             "limit": self._processes.limit,

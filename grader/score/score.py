@@ -14,7 +14,8 @@ from gz_course.grader.feedback.rules import faults_kept, recorded_faults
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
-from gz_course.grader.score.diagnosis import diagnose, silent
+from gz_course.grader.score.diagnosis import diagnose
+from gz_course.grader.score.topic_faults import silent
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT = Finding(False, "a run that nobody tampers with", "not counted: the run was tampered with")

@@ -7,10 +7,12 @@ import numpy as np
 
 from gz_course.grader.record.reading import Signal
 
+TURNS = import_module("gz_course.exercises.11_many_robots.grading.follower_turns")
 FITS = import_module("gz_course.exercises.11_many_robots.grading.follower_fits")
 
 
 CHECKS = import_module("gz_course.exercises.11_many_robots.grading.convoy_checks")
+TOPICS = import_module("gz_course.exercises.11_many_robots.grading.convoy_topics")
 
 
 STEP, END = 0.05, 7.0
@@ -95,4 +97,4 @@ def rule(speed=lambda h: speed_of(distance(h) - GAP), angle=lambda h: wrapped(be
 
 def told(rule, about, delay=1):
     heard = FITS.heard(Run(rule, delay), "robot2", "robot1")
-    return getattr(FITS, about)(heard)
+    return getattr(TURNS if about == "turning" else FITS, about)(heard)

@@ -9,6 +9,8 @@ import pytest
 from gz_course.grader.record.reading import Line, Poses, Signal
 
 CHECKS = import_module("gz_course.exercises.07_frames.grading.checks")
+ANSWERED = import_module("gz_course.exercises.07_frames.grading.answered")
+EXPLAINED = import_module("gz_course.exercises.07_frames.grading.explained")
 RAYS, FIRST, STEP = 61, -2.0, 0.06
 UPSIDE_DOWN = (0.94, 0.34, 0.0, 0.0)  # x, y, z, w
 
@@ -69,7 +71,7 @@ class Run:
 
     @property
     def truth(self):
-        return CHECKS.right(self, CHECKS.scans(self))
+        return ANSWERED.right(self, ANSWERED.scans(self))
 
 
 @pytest.mark.parametrize("late", [0.0, 0.02, 0.1])
@@ -88,12 +90,12 @@ def test_silence_earns_nothing():
 
 def test_every_misconception_is_named(monkeypatch):
     run = Run()
-    scans = CHECKS.scans(run)
+    scans = ANSWERED.scans(run)
     answered = SimpleNamespace(**vars(scans) | {"answered": scans.arrived + 0.02, "points": scans.hits})
-    told = list(CHECKS.predictions(run, answered, run.truth))
+    told = list(EXPLAINED.predictions(run, answered, run.truth))
     assert len(told) > 30
     # They are the same for each answer, but for a few that depend on it and are given as they are here.
-    monkeypatch.setitem(CHECKS.places.__globals__, "predictions", lambda *given: told)
+    monkeypatch.setitem(EXPLAINED.explanation.__globals__, "predictions", lambda *given: told)
     for words, points in told:
         if words == "always the same":
             continue  # depends on the answer
@@ -109,9 +111,9 @@ def test_every_misconception_is_named(monkeypatch):
 
 def test_the_hit_of_the_scan_that_has_just_come_is_no_hit_of_one_that_waited():
     run = Run()
-    scans = CHECKS.scans(run)
+    scans = ANSWERED.scans(run)
     hits = np.concatenate([scans.hits[1:], scans.hits[-1:]])
-    run.answer(CHECKS.odom(run, scans.stamps).of(scans.mount.of(hits)), late=0.12)
+    run.answer(ANSWERED.odom(run, scans.stamps).of(scans.mount.of(hits)), late=0.12)
     assert "the hits of the scan that has just come" in run.places().explanation
 
 
@@ -171,7 +173,7 @@ def test_silence_is_explained_by_what_the_node_asks_for(lookup, words):
 
 def test_points_with_the_stamp_of_another_scan_are_explained_by_when_they_came():
     run = Run()
-    odom, found = CHECKS.odom, CHECKS.scans(run)
+    odom, found = ANSWERED.odom, ANSWERED.scans(run)
     first = odom(run, np.full(len(run.at), run.at[0])).of(found.mount.of(found.hits))
     run.answer(first, late=0.02, stamps=np.full(len(run.at), run.at[0]))
     assert "a transform that was looked up once" in run.places().explanation
@@ -179,9 +181,9 @@ def test_points_with_the_stamp_of_another_scan_are_explained_by_when_they_came()
 
 def test_several_points_for_each_scan_and_hits_of_another_ray_are_named():
     run = Run()
-    found = CHECKS.scans(run)
-    every = CHECKS.other_hits.hits_of(found)
-    both = CHECKS.both_frames(run, found)
+    found = ANSWERED.scans(run)
+    every = EXPLAINED.other_hits.hits_of(found)
+    both = ANSWERED.both_frames(run, found)
     at = np.repeat(run.at, 2)
     points = np.repeat(both.of(np.array([hits[20] for hits in every])), 2, axis=0)
     run.answer(both.of(np.array([hits[20] for hits in every])), late=0.02)
@@ -189,9 +191,9 @@ def test_several_points_for_each_scan_and_hits_of_another_ray_are_named():
     run.signals |= {f"topics/nearest_hit/point/{axis}": (at + 0.02, points[:, i]) for i, axis in enumerate("xyz")}
     run.signals["topics/nearest_hit/header/stamp"] = (at + 0.02, at)
     assert "about 2 points for each scan" in run.places().explanation
-    measure = CHECKS.other_hits.within(-50.0, 50.0)
+    measure = EXPLAINED.other_hits.within(-50.0, 50.0)
     angles = FIRST + STEP * np.arange(RAYS)
-    near = CHECKS.other_hits.chosen([(hits, angles) for hits in every], measure)
+    near = EXPLAINED.other_hits.chosen([(hits, angles) for hits in every], measure)
     said = run.answer(both.of(near), late=0.02).places().explanation
     assert "only rays from about -48 to 49 degrees" in said
 
@@ -221,7 +223,7 @@ def test_a_scan_that_is_answered_again_and_again_has_several_points():
 )
 def test_what_scans_without_a_point_have_in_common(left_out, words):
     run = Run()
-    found = CHECKS.scans(run)
+    found = ANSWERED.scans(run)
     away = np.linalg.norm(found.hits, axis=1)
     away = away / np.median(away)  # some to either side of 1 m
     angle = np.degrees(np.arctan2(found.hits[:, 1], found.hits[:, 0]))
@@ -233,10 +235,10 @@ def test_what_scans_without_a_point_have_in_common(left_out, words):
 
 def test_rays_of_a_part_of_the_scan_and_transforms_in_the_wrong_order():
     run = Run()
-    found, odom = CHECKS.scans(run), CHECKS.odom
-    polar = CHECKS.polar
+    found, odom = ANSWERED.scans(run), ANSWERED.odom
+    polar = ANSWERED.polar
     distance, angle = np.linalg.norm(found.hits, axis=1), np.arctan2(found.hits[:, 1], found.hits[:, 0])
-    both = CHECKS.both_frames(run, found)
+    both = ANSWERED.both_frames(run, found)
     said = run.answer(both.of(polar(distance, angle - 7 * STEP)), late=0.02).places().explanation
     assert "-24 degrees off, 7 rays: the number of a ray is counted" in said
     both_of, shift = both.of(found.hits - (0.2, 0.0, 0.0)), "(-0.20, 0.00, 0.00) m: there a hit is at range * cos"
@@ -275,8 +277,8 @@ def test_points_that_come_only_if_the_hit_has_moved():
 def test_slips_of_formulas(words, points):
     run = Run()
     run.mount = (0.2, -0.1, 0.3), (0.0, 0.0, np.sin(1.0), np.cos(1.0))
-    scans = CHECKS.scans(run)
-    both, far = CHECKS.both_frames(run, scans), np.linalg.norm(scans.hits, axis=1)
+    scans = ANSWERED.scans(run)
+    both, far = ANSWERED.both_frames(run, scans), np.linalg.norm(scans.hits, axis=1)
     angle = FIRST + STEP * scans.rays
     run.answer(points(run, scans, both, far, angle))
     assert words in run.places().explanation, run.places()

@@ -10,6 +10,7 @@ from gz_course.tests.exercises.convoys import (
     CHECKS,
     FITS,
     GAP,
+    TOPICS,
     Run,
     bearing,
     distance,
@@ -113,8 +114,8 @@ def test_how_robots_stand_instead_of_in_a_row(places, words):
     ],
 )
 def test_a_name_below_the_namespace_of_a_follower(topic, words):
-    assert words in CHECKS._below_its_namespace(topic, "robot2", ["/robot1/odom", "/robot2/odom"])
-    assert "write" not in CHECKS._below_its_namespace("/robot2/robot5/odom", "robot2", ["/robot1/odom"])
+    assert words in TOPICS._below_its_namespace(topic, "robot2", ["/robot1/odom", "/robot2/odom"])
+    assert "write" not in TOPICS._below_its_namespace("/robot2/robot5/odom", "robot2", ["/robot1/odom"])
 
 
 @pytest.mark.parametrize(
@@ -150,7 +151,7 @@ def said_of_a_bridge(node, topic, gz_topic):
     }  # fmt: skip
     facts = {"bridges": [bridge], "launch": {"bridges_started": [{"node": node}]}}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
-    return CHECKS.own_topics(recording, {}).explanation
+    return TOPICS.own_topics(recording, {}).explanation
 
 
 def seen_elsewhere(angle):
@@ -194,7 +195,7 @@ def follower(node="/robot2/follower", front="/robot1/odom"):
     ]
     facts = {"endpoints": ends, "launch": {}}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {}, lines=lambda entity: [])
-    return CHECKS.listens_to_the_one_in_front(recording, {})
+    return TOPICS.listens_to_the_one_in_front(recording, {})
 
 
 def test_names_of_followers_and_of_what_they_hear():
@@ -281,7 +282,7 @@ def test_only_the_last_robot_has_no_follower():
     facts = {"endpoints": ends, "launch": {}}
     given = {"trial_parameters": '{"parameters": {"robots": "3"}}'}
     recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: given, lines=lambda entity: [])
-    assert "only the last robot, robot3" in CHECKS.listens_to_the_one_in_front(recording, {}).explanation
+    assert "only the last robot, robot3" in TOPICS.listens_to_the_one_in_front(recording, {}).explanation
 
 
 def test_what_a_follower_does_while_it_falls_behind():

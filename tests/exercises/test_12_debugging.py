@@ -159,12 +159,14 @@ def test_a_remapping_that_joins_nothing(remapping, words):
 
 
 CHECKS = import_module("gz_course.exercises.12_debugging.grading.checks")
+EVIDENCE = import_module("gz_course.exercises.12_debugging.grading.evidence")
+PARKING = import_module("gz_course.exercises.12_debugging.grading.parking")
 
 
 @pytest.mark.parametrize(("stamps", "words"), [([0, 0], "does not set header.stamp"), ([0, 1], ""), ([], "")])
 def test_distances_without_a_time(stamps, words):
     recording = SimpleNamespace(signal=lambda name: SimpleNamespace(values=np.array(stamps)))
-    found = CHECKS._why_stale(recording)
+    found = PARKING._why_stale(recording)
     assert words in found and bool(words) == bool(found)
 
 
@@ -269,8 +271,8 @@ def test_a_suspect_is_that_of_its_file():
     place = {"line": 7, "about": "age", "said": "turned"}
     facts = {"suspects": [place | {"file": "ranger_node.py"}, place | {"file": "driver_node.py", "about": "hidden"}]}
     recording = SimpleNamespace(facts=lambda: facts)
-    assert CHECKS._suspects(recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
-    assert CHECKS._suspects(recording, "driver_node.py", "age") == ""
+    assert EVIDENCE.suspected_in(recording, "ranger_node.py", "age") == "ranger_node.py, line 7: turned"
+    assert EVIDENCE.suspected_in(recording, "driver_node.py", "age") == ""
 
 
 def test_a_simulator_that_ends_by_itself_has_run():
@@ -286,7 +288,7 @@ def test_a_driver_that_publishes_nothing(said, words):
     facts = {"slips": [{"file": "driver_node.py", "line": 3, "said": said}]}
     numbers = {"topics/wall/range": [1.0] * 8, "topics/cmd_vel/count": []}
     recording = SimpleNamespace(facts=lambda: facts, signal=numbers.get, lines=lambda entity: [])
-    found = CHECKS._why_still(recording)
+    found = PARKING._why_still(recording)
     assert found.startswith("the driver got 8 distances and published no command")
     assert ("one of its callbacks hangs" in found) == bool(words)
 
@@ -296,7 +298,7 @@ def test_a_ranger_that_publishes_nothing():
     recording = SimpleNamespace(
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: []
     )
-    assert "before its publish() stand `if ahead:` in line 9" in CHECKS._why_still(recording)
+    assert "before its publish() stand `if ahead:` in line 9" in PARKING._why_still(recording)
 
 
 def test_what_the_ranger_warned_of_is_said_first():
@@ -305,7 +307,7 @@ def test_what_the_ranger_warned_of_is_said_first():
     recording = SimpleNamespace(
         facts=lambda: {"conditions": [place]}, signal=lambda name: np.array([]), lines=lambda entity: [line]
     )
-    assert "on /wall; it warned: no frame for the scan" in CHECKS._why_still(recording)
+    assert "on /wall; it warned: no frame for the scan" in PARKING._why_still(recording)
 
 
 def test_a_world_without_the_folder_of_the_launch_file():

@@ -10,6 +10,7 @@ from gz_course.grader.record.reading import Signal
 from gz_course.grader.score.floor import Grid, Shapes
 
 DRIVING = import_module("gz_course.exercises.13_capstone.grading.driving")
+MAP_FAULTS = import_module("gz_course.exercises.13_capstone.grading.map_faults")
 ARRANGED = import_module("gz_course.exercises.13_capstone.grading.arrangements")
 NOW = np.arange(0.0, 36.0, 0.2)
 
@@ -99,8 +100,8 @@ def test_a_robot_that_drove_far_and_did_not_see_all_is_looked_up_in_its_file():
 
 def test_maps_that_are_all_the_same():
     said, run = np.full((80, 100), -1.0), recording()
-    assert "all 5 maps are the same, all cells are unknown" in DRIVING.hardly_any(run, said, [said.ravel()] * 5)
-    assert DRIVING.hardly_any(run, said, [said.ravel()] * 4 + [0 * said.ravel()]) == "hardly any cell is occupied"
+    assert "all 5 maps are the same, all cells are unknown" in MAP_FAULTS.hardly_any(run, said, [said.ravel()] * 5)
+    assert MAP_FAULTS.hardly_any(run, said, [said.ravel()] * 4 + [0 * said.ravel()]) == "hardly any cell is occupied"
 
 
 def test_what_was_touched_ahead_and_beside():
@@ -151,20 +152,20 @@ def grids():
 def test_walls_that_are_missing(value, words):
     said, wanted, _ = grids()
     said[wanted] = value
-    found = DRIVING.walls_missing(said, wanted, None)
+    found = MAP_FAULTS.walls_missing(said, wanted, None)
     assert words in found if words else found == ""
-    assert ("between 26 and 64, such as 50" in DRIVING.unclear(said, wanted)) == (value == 50)
+    assert ("between 26 and 64, such as 50" in MAP_FAULTS.unclear(said, wanted)) == (value == 50)
 
 
 def test_walls_that_were_there_before():
     said, wanted, _ = grids()
-    assert "what was seen once must stay" in DRIVING.walls_missing(said, wanted, wanted)
+    assert "what was seen once must stay" in MAP_FAULTS.walls_missing(said, wanted, wanted)
 
 
 def test_walls_that_were_there_before_and_are_free_now():
     said, wanted, _ = grids()
     said[wanted] = 0
-    assert "a hit must count for more" in DRIVING.walls_missing(said, wanted, wanted)
+    assert "a hit must count for more" in MAP_FAULTS.walls_missing(said, wanted, wanted)
 
 
 def test_a_map_that_is_moved():
@@ -176,28 +177,28 @@ def test_a_map_that_is_moved():
 
 def test_cells_that_are_not_free():
     said, _, passed = grids()
-    assert "most rays, or most scans, are left out" in DRIVING.not_free(said, passed, 0 * passed)
+    assert "most rays, or most scans, are left out" in MAP_FAULTS.not_free(said, passed, 0 * passed)
     said[passed] = 0
     others = np.roll(passed, 30, axis=0)
-    assert "only rays with a hit" in DRIVING.not_free(said, passed, others)
-    assert DRIVING.not_free(said, passed, passed) == ""
+    assert "only rays with a hit" in MAP_FAULTS.not_free(said, passed, others)
+    assert MAP_FAULTS.not_free(said, passed, passed) == ""
     said[:, ::2] = -1
-    assert "steps along a ray" in DRIVING.not_free(said, passed, 0 * passed)
+    assert "steps along a ray" in MAP_FAULTS.not_free(said, passed, 0 * passed)
 
 
 def test_walls_that_are_widened():
     said, hit, _ = grids()
-    said[DRIVING.widened(hit, 3.1)] = 100
+    said[MAP_FAULTS.widened(hit, 3.1)] = 100
     alias = {"line": 7, "about": "alias", "said": "makes no copy"}
-    assert "about 3 cells thicker on every side" in DRIVING.thick(recording(), said, hit)
-    assert "(line 7: makes no copy)" in DRIVING.thick(recording(suspects=[alias]), said, hit)
+    assert "about 3 cells thicker on every side" in MAP_FAULTS.thick(recording(), said, hit)
+    assert "(line 7: makes no copy)" in MAP_FAULTS.thick(recording(suspects=[alias]), said, hit)
     half = np.where(np.arange(100) < 45, said, -1)
-    assert DRIVING.thick(recording(), half, hit) == ""  # at half of the walls
+    assert MAP_FAULTS.thick(recording(), half, hit) == ""  # at half of the walls
     said[40:70] = 100
-    assert DRIVING.thick(recording(), said, hit) == ""  # elsewhere, too
+    assert MAP_FAULTS.thick(recording(), said, hit) == ""  # elsewhere, too
     said[:] = -1
     said[hit] = 100
-    assert DRIVING.thick(recording(), said, hit) == ""
+    assert MAP_FAULTS.thick(recording(), said, hit) == ""
 
 
 @pytest.mark.parametrize(
@@ -212,7 +213,7 @@ def test_walls_that_are_widened():
     ],
 )
 def test_an_origin_that_is_something_else(x, y, words):
-    assert words in DRIVING.other_origin(x, y, Grid(0.1, 100, 80, -5.0, -4.0))
+    assert words in MAP_FAULTS.other_origin(x, y, Grid(0.1, 100, 80, -5.0, -4.0))
 
 
 def test_scattered_hits_do_not_explain_the_walls_of_a_map(monkeypatch):
@@ -243,14 +244,14 @@ def test_cells_by_another_factor():
     [(100, "are occupied in the map: they are free"), (50, "values such as 50"), (-1, "all cells"), (0, "")],
 )
 def test_a_map_by_which_no_robot_can_drive(monkeypatch, value, words):
-    checks = import_module("gz_course.exercises.13_capstone.grading.checks")
-    known = checks.not_as_it_was_seen.__globals__
+    exploring = import_module("gz_course.exercises.13_capstone.grading.exploring")
+    known = exploring.not_as_it_was_seen.__globals__
     passed = np.zeros((80, 100), dtype=int)
     passed[20:60, 20:60] = 9
     monkeypatch.setitem(known, "walls_are_right", lambda *given: True)
     monkeypatch.setitem(known, "hits", lambda *given: np.empty((0, 2)))
     monkeypatch.setitem(known, "along", lambda *given: passed)
-    said = checks.not_as_it_was_seen(recording(), np.where(passed, value, -1.0), SimpleNamespace(ends=3.0, hit=None))
+    said = exploring.not_as_it_was_seen(recording(), np.where(passed, value, -1.0), SimpleNamespace(ends=3.0, hit=None))
     assert words in said if words else said == ""
 
 
@@ -290,15 +291,15 @@ def test_ends_of_rays_without_a_hit_explain_walls_only_where_they_are():
 
 def test_a_map_that_does_not_change():
     times, maps = np.arange(10) * 10**9, [np.full(8, number) for number in (0, 1, *[2] * 8)]
-    assert "since 2.0 s" in DRIVING.unchanged(times, maps)
-    assert DRIVING.unchanged(times, [np.full(8, number) for number in range(10)]) == ""
+    assert "since 2.0 s" in MAP_FAULTS.unchanged(times, maps)
+    assert MAP_FAULTS.unchanged(times, [np.full(8, number) for number in range(10)]) == ""
 
 
 def test_hits_that_are_free_in_a_map_without_walls():
     said, hit = np.zeros((80, 100)), np.zeros((80, 100), dtype=bool)
     hit[5, :50] = True
-    assert "make the cells in which they end free again" in DRIVING.hardly_any(recording(), said, [], hit)
-    assert DRIVING.hardly_any(recording(), said, []) == "hardly any cell is occupied"
+    assert "make the cells in which they end free again" in MAP_FAULTS.hardly_any(recording(), said, [], hit)
+    assert MAP_FAULTS.hardly_any(recording(), said, []) == "hardly any cell is occupied"
 
 
 def test_a_robot_that_drives_backwards():

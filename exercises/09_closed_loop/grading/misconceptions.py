@@ -9,16 +9,17 @@ import numpy as np
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 from . import driving, fitted, law, searching, steering
+from .answered_scans import SETTLED, ahead_of, moving, point_and_rates, scans
+from .new_distance import old_distance, seldom
+from .other_walls import gaps, mean_of_the_side, nearest_anywhere, other_side
 
 if TYPE_CHECKING:
     from .wall import Run
 
-SETTLED, KEPT = 7.0, 0.08  # [s] after the start; [m] within which a distance is kept
 MEANS = {"mean", "median", "fmean", "average", "nanmean", "nanmedian", "percentile", "sum", "sorted", "sort"}
 # Wrong distances -> the functions one of which makes them.
 NEEDED = {"cos": {"cos"}, "sin": {"sin"}, "mean": MEANS, "max": {"max", "nanmax", "sorted", "sort", "argmax"}}
 BEHIND = "behind the robot"
-FIRST = 15  # scans in which the robot was too near
 
 
 def explain(run: Run) -> str:
@@ -124,17 +125,6 @@ def signs(run: Run) -> str:
     return steering.signs(run, times, bearings, ranges) if len(times) else ""
 
 
-def point_and_rates(run: Run, standing: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the nearest points of the side in all scans that were answered, the turning rates and the distances.
-
-    Those in which the robot stands, such as against a wall, are left out: they are one scan many times over.
-    """
-    times, bearings, ranges = scans(run)
-    heard, rates, asked = steering.answered(run, times)
-    point, chosen = steering.measured(bearings, ranges[heard])["right"], moving(run) | standing
-    return point[chosen], rates[chosen], asked[chosen]
-
-
 def unchanging(run: Run) -> str:
     values = run.recording.signal("topics/cmd_vel/angular/z").values
     share = (np.abs(values) > 1.45).mean() if len(values) else 0.0
@@ -167,13 +157,6 @@ def exchanged(run: Run) -> str:
     return searching.exchanged(run, point, rates, asked, ahead)
 
 
-def ahead_of(run: Run, times: np.ndarray) -> np.ndarray:
-    """Return linear.x [m/s] of the commands that answer the scans of these times [s]."""
-    signal = run.recording.signal("topics/cmd_vel/linear/x")
-    index = np.searchsorted(signal.times / 1e9, times) + run.lag
-    return signal.values[np.minimum(index, len(signal.values) - 1)]
-
-
 def steers_by(run: Run) -> str:
     """Find out which distance or bearing explains the commands, where those of the nearest point do not."""
     times, bearings, ranges = scans(run)
@@ -189,13 +172,6 @@ def steers_by(run: Run) -> str:
         return f"{said}: {why}"
     said = said or fitted.signs(*seen, run.side)
     return said or fitted.times_speed(*seen, ahead_of(run, times[heard])[chosen])
-
-
-def moving(run: Run) -> np.ndarray:
-    """Return at which of the answered scans the robot moves."""
-    times = scans(run)[0]
-    speed = np.interp(times, run.times, np.abs(run.speed)) + 0.2 * np.interp(times, run.times, np.abs(run.turning))
-    return speed[steering.answered(run, times)[0]] > 0.03
 
 
 def offset(run: Run) -> str:
@@ -237,58 +213,6 @@ def counted_from_ray_zero(run: Run) -> str:
         return ""
     said = suspect(run.recording, "bearing")
     return f"{said}; here, angle_min is {first[0]:.2f}, {BEHIND if abs(first[0]) > 3.0 else 'not 0'}" if said else ""
-
-
-def mean_of_the_side(run: Run) -> str:
-    """Find out whether a mean of ranges is taken for the distance: it is larger, so the robot comes too near."""
-    late = run.times > SETTLED
-    if not late.any() or np.median(run.error[late]) > -0.1:
-        return ""
-    return suspect(run.recording, "mean")
-
-
-def other_side(run: Run) -> str:
-    late = run.times > SETTLED
-    own = np.mean(np.abs(run.error[late]) < KEPT)
-    other = np.mean(np.abs(run.other_side - run.wanted)[late] < KEPT)
-    if own > 0.15 or other < 0.3:
-        return ""
-    wrong = "right" if run.side == "left" else "left"
-    return f'side is "{run.side}", but the robot keeps its distance from the wall on its {wrong}'
-
-
-def old_distance(run: Run) -> str:
-    late = run.times > run.changed + 6.0
-    if not late.any() or abs(run.asked[-1] - run.asked[0]) < 0.2 or np.abs(run.along[late]).sum() < 1.0:
-        return ""
-    usual = float(np.median(run.distance[late]))
-    before = (run.times > SETTLED) & (run.times < run.changed)
-    kept = float(np.median(run.distance[before])) if before.any() else run.asked[0]
-    if abs(usual - run.asked[0]) > KEPT or abs(usual - kept) > 0.5 * abs(run.asked[-1] - run.asked[0]):
-        return ""
-    why = suspect(run.recording, "parameter distance", "parameter")
-    if not why and len(scans(run)[0]):
-        point, rates, asked = point_and_rates(run)
-        new = asked == run.asked[-1]
-        if not law.answers_old(point[new], rates[new], run.asked[0], run.asked[-1]):
-            return ""
-    why = why or "its new value does not reach what it steers by"
-    return (
-        f"the robot still keeps {usual:.2f} m, although distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m "
-        f"at {run.changed:g} s: {why}"
-    )
-
-
-def seldom(run: Run) -> str:
-    """Find out whether the new distance is read too late, by the file, and was not answered at first."""
-    if not len(scans(run)[0]) or not np.isfinite(run.changed) or not (why := suspect(run.recording, "seldom distance")):
-        return ""
-    heard, rates, _ = steering.answered(run, scans(run)[0])
-    times = scans(run)[0][heard]
-    first = (times > run.changed + 0.2) & (times < run.changed + 1.0)
-    if not first.any() or abs(rates[first].mean()) > 0.5:
-        return ""
-    return f"{why}; distance was set from {run.asked[0]:g} to {run.asked[-1]:g} m at {run.changed:g} s"
 
 
 def wrong_sign(run: Run) -> str:
@@ -350,51 +274,3 @@ def swings(run: Run) -> str:
     if len(scans(run)[0]) and law.heeds_heading(*point_and_rates(run)):
         return f"{said}: angular.z answers the distance too strongly, or too late, beside the heading"
     return f"{said}: only the distance is fed back, or the gain is too high for the time between two scans"
-
-
-def scans(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return times [s] (n,), bearings from ahead towards the side [rad] (m,) and ranges [m] (n, m) of all scans."""
-    times, ranges = run.recording.arrays("topics/lidar/scan/ranges")
-    first = run.recording.signal("topics/lidar/scan/angle_min").values
-    step = run.recording.signal("topics/lidar/scan/angle_increment").values
-    if not len(times):
-        return np.empty(0), np.empty(0), np.empty((0, 0))
-    return times / 1e9, run.sign * (first[0] + step[0] * np.arange(len(ranges[0]))), np.array(ranges)
-
-
-def gaps(run: Run) -> str:
-    """Find out whether the robot is too near to its wall where rays beside it hit nothing, and there alone."""
-    times, bearings, ranges = scans(run)
-    if not len(times):
-        return ""
-    beside = np.any(np.isposinf(ranges[:, np.abs(bearings - np.pi / 2) < 0.4]), axis=1)
-    near = np.flatnonzero((times > 3.0) & (np.interp(times, run.times, run.error) < -0.1))[:FIRST]
-    if len(near) < FIRST or beside[near].mean() < 0.8 or beside[times > 3.0].mean() > 0.6:
-        return ""
-    return (
-        f"the robot comes too near where its wall has gaps, first at {times[near[0]]:.1f} s: rays through "
-        "them read inf, and inf in a mean is inf; use isfinite on each range"
-    )
-
-
-def nearest_anywhere(run: Run) -> str:
-    """Find out whether the robot has left its wall when something on its other side was nearer."""
-    times, bearings, ranges = scans(run)
-    lost = run.times[(run.times > 3.0) & (run.error > 0.2)]
-    if not len(times) or not len(lost):
-        return ""
-    on_side = np.where((bearings > -0.2) & (ranges > 0), ranges, np.inf).min(axis=1)
-    on_other = np.where((bearings < -0.4) & (ranges > 0), ranges, np.inf).min(axis=1)
-    nearer = np.flatnonzero((times > lost[0] - 3.0) & (times < lost[0]) & (on_other < on_side))
-    if not len(nearer):
-        return ""
-    first = nearer[0]
-    after = (run.times > times[first]) & (run.times < lost[0])
-    share = steering.follows(run, times, bearings, ranges)
-    if (run.sign * run.turning[after]).mean() > -0.5 or (share and share["all around"] < share["right"] - 0.02):
-        return ""
-    other = "left" if run.side == "right" else "right"
-    return (
-        f"at {times[first]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
-        f"{on_other[first]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
-    )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .patrol_checks import Run
+    from .patrol_run import Run
 
 DRIVES = 0.08  # [m/s]
 FACES = 0.35  # [rad] a server that drives believes that the waypoint is ahead

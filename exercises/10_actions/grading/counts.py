@@ -9,7 +9,7 @@ import numpy as np
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 if TYPE_CHECKING:
-    from .patrol_checks import Run
+    from .patrol_run import Run
 
 BEGIN_ANEW = "Make a new Result, and count from 0, in execute"
 

@@ -11,7 +11,7 @@ import numpy as np
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 if TYPE_CHECKING:
-    from .patrol_checks import Run
+    from .patrol_run import Run
 
 MOVED = 0.25  # [m] from the start of a patrol: then its direction is known
 STRAIGHT = 0.15  # [rad]

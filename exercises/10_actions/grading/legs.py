@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .patrol_checks import Run
+    from .patrol_run import Run
 
 MISSED = 0.17  # [m] from a waypoint that was left
 SAME = 0.12  # [s] by which equal times may differ

@@ -6,70 +6,24 @@ The dispatcher's reports are in `given_node.py`. Waypoints are in the frame odom
 
 from __future__ import annotations
 
-import json
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from gz_course.grader.feedback.recorded.suspects import suspect
-from gz_course.grader.record.reading import REPORTS, Recording
+from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 
-from . import distances, later_goals, legs, misconceptions, pauses, refusals, speeds
+from . import after_the_end, distances, later_goals, legs, misconceptions, pauses, refusals, speeds
 from .counts import of_a_cancelled, other_visited
+from .patrol_run import NEAR, Run
 
-NEAR = 0.17  # [m] 0.15, and what odometry may be wrong
 LARGEST_GAP = 1.1  # [s] between two feedback messages
 TURNS_ON = 0.1  # [rad/s] when a patrol is over
 STILL = 1.5  # [s] before the end of a run: who sends feedback then is still driving
 STOPPED = 0.5  # [s] after the cancellation
 GOALS = {goal: words for goal, (words, _) in refusals.GOALS.items()}
-
-
-class Run:
-    """The events of a run, by name and goal, and the way of the robot in the frame odom."""
-
-    def __init__(self, recording: Recording) -> None:
-        self.recording = recording
-        self.events = []
-        for line in recording.lines(REPORTS):
-            self.events.append(json.loads(line.text) | {"at": line.time_ns / 1e9})
-        x, y, yaw, self.linear, self.angular = (
-            recording.signal(f"truth/robot/{name}") for name in ("x", "y", "yaw", "linear_x", "angular_z")
-        )
-        self.times = x.times / 1e9
-        self.end = float(self.times[-1]) if len(self.times) else 0.0
-        if len(self.times):
-            east, north = x.values - x.values[0], y.values - y.values[0]
-            c, s = np.cos(yaw.values[0]), np.sin(yaw.values[0])
-            self.way = np.column_stack((c * east + s * north, c * north - s * east))
-            self.heading = yaw.values - yaw.values[0]
-
-    def all(self, event: str, goal: str) -> list[Any]:
-        return [each for each in self.events if each["event"] == event and each["goal"] == goal]
-
-    def one(self, event: str, goal: str = "") -> Any:
-        return next(iter(self.all(event, goal)), None)
-
-    def period(self, goal: str) -> tuple[float, float]:
-        """Return when a goal was accepted and when its result came, or the end of the run."""
-        result = self.one("result", goal)
-        return self.one("accepted", goal)["at"], result["at"] if result else self.end
-
-    def waypoints(self, goal: str) -> list[Any]:
-        return self.one("sent", goal)["waypoints"]
-
-    def nearest(self, goal: str, until: float, near: float = NEAR) -> tuple[int, float]:
-        """Return how many waypoints were reached in their order, and how near the robot came to the next one."""
-        start, _ = self.period(goal)
-        way = self.way[(self.times >= start) & (self.times <= until)]
-        for count, point in enumerate(self.waypoints(goal)):
-            left = np.hypot(*(way - np.array(point)).T) if len(way) else np.array([np.inf])
-            if left.min() > near:
-                return count, float(left.min())
-            way = way[int(np.argmax(left <= near)) :]
-        return len(self.waypoints(goal)), 0.0
 
 
 def gated(expected: str, why: str) -> Finding:
@@ -144,11 +98,11 @@ def visits(recording: Recording, parameters: dict[str, Any]) -> Finding:
     _, end = run.period("patrol")
     count, left = run.nearest("patrol", end)
     total = len(run.waypoints("patrol"))
-    over = ("patrol is over: " + misconceptions.obeys(run, end, end + 0.5)) if count == total else ""
-    if count == total and (turning := misconceptions.drives_on(run, run.angular.values)) > TURNS_ON:
+    over = ("patrol is over: " + after_the_end.obeys(run, end, end + 0.5)) if count == total else ""
+    if count == total and (turning := after_the_end.drives_on(run, run.angular.values)) > TURNS_ON:
         words = f"The robot turns on when the {over}"
         return Finding(False, expected, f"{turning:.2f} rad/s after the end", end, explanation=words)
-    if count == total and (moving := misconceptions.drives_on(run, run.linear.values)) > 0.03:
+    if count == total and (moving := after_the_end.drives_on(run, run.linear.values)) > 0.03:
         words = f"The robot drives on when the {over}"
         return Finding(False, expected, f"{moving:.2f} m/s after the end", end, explanation=words)
     if count == total:
@@ -362,13 +316,13 @@ def cancel(recording: Recording, parameters: dict[str, Any]) -> Finding:
         why = f"Your server refuses to cancel{why}"
         return Finding(False, expected, "the cancellation was refused", at, explanation=why)
     found = run.one("result", "cancelled")
-    speed_then, turning = misconceptions.after_cancel(run, at + STOPPED, at + STOPPED + 0.5)
-    moving, rate = misconceptions.after_cancel(run, at + STOPPED, run.end)
+    speed_then, turning = after_the_end.after_cancel(run, at + STOPPED, at + STOPPED + 0.5)
+    moving, rate = after_the_end.after_cancel(run, at + STOPPED, run.end)
     if moving > 0.03 and found is not None and found["at"] < at + STOPPED:
-        why = f"The goal ended, but the robot drove on: {misconceptions.obeys(run, found['at'], at + STOPPED + 0.5)}"
+        why = f"The goal ended, but the robot drove on: {after_the_end.obeys(run, found['at'], at + STOPPED + 0.5)}"
         return Finding(False, expected, f"{moving:.2f} m/s after the goal had ended", at + STOPPED, explanation=why)
     if moving > 0.03 or rate > TURNS_ON:
-        why = misconceptions.ends_late(run, found, at)
+        why = after_the_end.ends_late(run, found, at)
         measured = f"{speed_then:.2f} m/s half a second later"
         if speed_then <= 0.03:
             measured += f", {turning:.2f} rad/s, and up to {moving:.2f} m/s after that"

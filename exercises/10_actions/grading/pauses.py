@@ -9,7 +9,7 @@ import numpy as np
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 if TYPE_CHECKING:
-    from .patrol_checks import Run
+    from .patrol_run import Run
 
 SOON = 0.6  # [s] after the patrol, or a new waypoint, began
 THERE = 0.3  # [m] from a waypoint

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from gz_course.grader.feedback.recorded.suspects import suspect
 
 if TYPE_CHECKING:
-    from .patrol_checks import Run
+    from .patrol_run import Run
 
 GOALS = {
     "empty": ("a goal without waypoints", "accepts_empty"),

@@ -28,9 +28,7 @@ SHARE = 0.9  # of the commands
 ASTRAY = 0.05  # [rad] from the direction in which a follower does not turn: more is another angle
 TRACKED = 0.3  # [rad] from the direction of the robot in front: who stays nearer turns to it
 PLACES = "each odometry begins where its own robot began, and the robot in front began 1.2 m ahead"
-AWAY = 0.95  # of the commands that turn to the other side than that of the robot in front
 FASTEST = 5.0  # [m/s] no sensible speed of such a robot is larger
-TURNED = 1.0  # [rad]
 VARIES = 0.03  # least standard deviation of commands that can be fitted
 
 
@@ -118,71 +116,6 @@ def copied(commands: np.ndarray, speeds: np.ndarray) -> bool:
     return np.ptp(commands) > 5 * EDGE and np.mean(np.abs(commands - speeds) < EDGE) > SHARE
 
 
-def turning(every: list[Heard]) -> str:
-    """Return which wrong angle the follower steers by; empty if none fits clearly better than the right one."""
-    if any(copied(h.angular, h.front_angular) for h in every):
-        return "it sends the turning rate of the robot in front"
-    right = _closest([(wrapped(np.arctan2(h.aside, h.ahead) - h.heading), "") for h in every], every[0].angular)
-    if right is not None and right[0] > 0 and abs(right[1]) > TURNED * right[0]:
-        right = None  # it is at rest where the robot in front is aside
-    if right is not None and right[2] > FITS:
-        return "it turns away from the robot in front: the sign of angular.z is wrong" if right[0] < 0 else ""
-    said = _best([each for h in every for each in _angles(h)], every[0].angular, right, ASTRAY)
-    away = max(_sides(h.heading - np.arctan2(h.aside, h.ahead), h.angular) for h in every)
-    if said or away < AWAY:
-        return said
-    return (
-        "it turns away from the robot in front: the sign of angular.z is wrong, or the direction is that from it to "
-        "the follower; it is atan2(front.y - own.y, front.x - own.x)"
-    )
-
-
-def _angles(h: Heard) -> Iterator[tuple[np.ndarray, str]]:
-    bearing = np.arctan2(h.aside, h.ahead)
-    begins = np.arctan2(h.front_y - h.y, h.front_x - h.x)
-    half = h.heading / 2
-    yield (
-        wrapped(bearing),
-        "it turns by the direction to the robot in front, and does not subtract its own heading, or one that is always "
-        "0, as from orientation.x or .y",
-    )
-    yield (
-        np.pi / 2 - wrapped(bearing - h.heading),
-        "it exchanges the arguments of atan2: the angle to a place is atan2(y, x)",
-    )
-    yield (
-        wrapped(bearing + np.pi - h.heading),
-        "it turns its back to the robot in front: the direction is turned by pi, as by atan2(own.y - front.y, own.x - "
-        "front.x), or by an angle that lacks the last - pi",
-    )
-    yield wrapped(np.arctan2(h.front_y + GAP - h.y, h.front_x - h.x) - h.heading), "it adds the 1.2 m to y, not to x"
-    yield (
-        wrapped(bearing - np.sin(half)),
-        "it takes orientation.z, the sine of half its heading, for its heading: that is 2 * atan2(z, w)",
-    )
-    yield wrapped(bearing - half), "its own heading is half of what it is: the heading is 2 * atan2(z, w)"
-    yield wrapped(bearing + h.heading), "it adds its own heading to the direction instead of subtracting it"
-    yield (
-        wrapped(np.arctan2(h.ahead, h.aside) - h.heading),
-        "it exchanges the arguments of atan2: the angle to a place is atan2(y, x)",
-    )
-    yield (
-        wrapped(bearing - h.front_heading),
-        "it subtracts the heading of the robot in front from the direction, and not its own heading",
-    )
-    yield (
-        wrapped(np.arctan2(np.abs(h.aside), h.ahead) - h.heading),
-        "it turns to the left only: the sign of the difference of the two y is lost, as by abs()",
-    )
-    yield np.degrees(bearing) - h.heading, "the direction is in degrees, its own heading in radians"
-    yield bearing - np.degrees(h.heading), "its own heading is in degrees, the direction in radians"
-    yield wrapped(begins - h.heading), f"the direction in which it turns is wrong: {PLACES}"
-    yield (
-        wrapped(h.front_heading - h.heading),
-        "it turns by the heading of the robot in front, not towards the place of that robot",
-    )
-
-
 def speed(every: list[Heard]) -> str:
     """Return which wrong quantity the speed of the follower is made of; empty if none fits."""
     v = every[0].linear
@@ -196,7 +129,7 @@ def speed(every: list[Heard]) -> str:
         return words
     if words := _summed(every):
         return words
-    right = _closest([(h.distance, "") for h in every], v)
+    right = closest([(h.distance, "") for h in every], v)
     fits = right if right is not None and right[2] > FITS else None
     if fits is not None and fits[0] > 0 and abs(-fits[1] / fits[0] - GAP) < WIDE:
         return _pauses(every) or _of_the_gap(v, *fits[:2])
@@ -204,7 +137,7 @@ def speed(every: list[Heard]) -> str:
     other = other or follower_origins.begun_elsewhere(every, line)
     other = other or follower_origins.to_the_place(every, line, right[2] if right is not None else 0.0)
     if not other and not follower_origins.to_behind(every, line):
-        other = _best([each for h in every for each in _lengths(h)], v, right)
+        other = best([each for h in every for each in _lengths(h)], v, right)
     return other or _pauses(every) or (_of_the_gap(v, *fits[:2]) if fits is not None else _limits(v))
 
 
@@ -216,18 +149,18 @@ def seen_elsewhere(every: list[Heard]) -> str:
     if every[0].linear.max() > EDGE:
         return ""
     errors = [wrapped(np.arctan2(h.aside, h.ahead) - h.heading) for h in every]
-    right = max(_sides(error, h.angular) for error, h in zip(errors, every, strict=True))
+    right = max(sides(error, h.angular) for error, h in zip(errors, every, strict=True))
     if every[0].angular.any() and np.mean(np.abs(errors[0]) < TRACKED) > SHARE:
         return ""
     for h in every:
         behind = np.arctan2(h.aside, h.front_x - GAP - h.x) - h.heading
         exchanged = np.arctan2(-h.aside, h.x + GAP - h.front_x) - h.front_heading
-        if right < SHARE <= _sides(exchanged, h.angular):
+        if right < SHARE <= sides(exchanged, h.angular):
             return (
                 "it takes its own odometry for that of the robot in front, and that one for its own: the two "
                 "subscriptions, or their callbacks, are exchanged"
             )
-        if right < SHARE <= _sides(behind, h.angular):
+        if right < SHARE <= sides(behind, h.angular):
             return (
                 "it looks for the robot in front 1.2 m too far behind: that one began 1.2 m ahead, so its place is "
                 "front.x + 1.2 - own.x"
@@ -240,7 +173,7 @@ def seen_elsewhere(every: list[Heard]) -> str:
     return ""
 
 
-def _sides(angle: np.ndarray, commands: np.ndarray) -> float:
+def sides(angle: np.ndarray, commands: np.ndarray) -> float:
     """Return the share of the commands that turn to the side of an angle, where that is not nearly ahead."""
     angle = wrapped(angle)
     clear = (np.abs(angle) > ASTRAY) & (np.abs(angle) < np.pi - ASTRAY)
@@ -357,12 +290,12 @@ def _limits(v: np.ndarray) -> str:
     return ""
 
 
-def _closest(candidates: list[Any], commands: np.ndarray) -> tuple[float, float, float] | None:
+def closest(candidates: list[Any], commands: np.ndarray) -> tuple[float, float, float] | None:
     """Return the line that fits best; None if nothing can be fitted."""
     return max(filter(None, (line(quantity, commands) for quantity, _ in candidates)), default=None, key=lambda f: f[2])
 
 
-def _best(
+def best(
     candidates: list[Any], commands: np.ndarray, right: tuple[float, float, float] | None, most: float = np.inf
 ) -> str:
     """Return the words of the candidate that fits best, if it fits, and better than the right quantity.

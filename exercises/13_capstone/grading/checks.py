@@ -17,10 +17,8 @@ from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.floor import Grid, Scans, grown, hits, misplaced, scans, shapes
-from gz_course.grader.score.true_pose import true_poses
 
-from . import arrangements, driving, lags, rivals
-from .shown import wrongly
+from . import arrangements, lags, map_faults, rivals
 
 RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM = 0.1, 100, 80, -5.0, -4.0  # [m], [cells], [cells], [m], [m]
 GRID = Grid(RESOLUTION, WIDTH, HEIGHT, LEFT, BOTTOM)
@@ -34,8 +32,6 @@ FEWEST = 30  # cells; fewer say nothing about a map
 FITS = 0.8  # of the occupied cells, to fit a misconception
 EARLY = 0.5  # of the occupied cells of the first map that the scanner had not hit yet: the map was known before
 LATE = 0.5  # [s] before the last map; what was scanned later need not be in it
-MOVED = 0.3  # [m]
-MARGIN = 0.003  # [m] between the robot and what it does not touch
 MAP = "topics/map"
 
 
@@ -95,7 +91,7 @@ def layout(recording: Recording, parameters: dict[str, Any]) -> Finding:
         "width and height are exchanged": (width, height) != (HEIGHT, WIDTH),
         f"info says {width:g} x {height:g} cells": (width, height) in ((WIDTH, HEIGHT), (HEIGHT, WIDTH)),
         f"info.resolution is {size:g}, but a cell is 0.1 m wide": abs(size - RESOLUTION) < 1e-4,
-        f"info.origin is ({x:g}, {y:g}), {driving.other_origin(x, y, GRID)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
+        f"info.origin is ({x:g}, {y:g}), {map_faults.other_origin(x, y, GRID)}": hypot(x - LEFT, y - BOTTOM) < 1e-3,
         "the orientation of info.origin is not (0, 0, 0, 1)": abs(w - 1) < 1e-3,
         f"data has {number} numbers": number == WIDTH * HEIGHT,
     }
@@ -121,10 +117,10 @@ def walls(recording: Recording, parameters: dict[str, Any]) -> Finding:
     if not (words or layout(recording, parameters).explanation or known_before(recording)):
         maps = recording.arrays(f"{MAP}/data")
         words = (
-            driving.unclear(said, wanted)
-            or driving.unchanged(*maps)
+            map_faults.unclear(said, wanted)
+            or map_faults.unchanged(*maps)
             or suspect(recording, "threshold", "erased")
-            or driving.walls_missing(said, wanted, earlier_walls(recording), suspect(recording, "forgets", "fades"))
+            or map_faults.walls_missing(said, wanted, earlier_walls(recording), suspect(recording, "forgets", "fades"))
         )
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
@@ -207,7 +203,7 @@ def free(recording: Recording, parameters: dict[str, Any]) -> Finding:
     elif other > NEVER_SEEN and walls_are_right(recording, said):
         words = behind_hits(recording, said, every)
     elif share < SEEN and said[passed & ~marked].max(initial=-1) > FREE:
-        words = driving.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
+        words = map_faults.thick(recording, said, hit) or f"cells that rays passed have values above {FREE}"
     if not words and share < SEEN:
         fitting = (
             each for each, changed in arrangements.rearranged(marked) if changed[passed].mean() >= FITS > share + 0.2
@@ -215,7 +211,7 @@ def free(recording: Recording, parameters: dict[str, Any]) -> Finding:
         words = next((f"your walls are right, but of your free cells {each}" for each in fitting), "")
     if not words and share < SEEN:
         ways = (along(before, 0, before.ends - 2 * RESOLUTION, which) >= HITS for which in (before.hit, ~before.hit))
-        words = suspect(recording, "threshold") or driving.not_free(said, *(way & ~hit for way in ways))
+        words = suspect(recording, "threshold") or map_faults.not_free(said, *(way & ~hit for way in ways))
     return Finding(False, expected, measured, round(at, 3), explanation=words)
 
 
@@ -239,88 +235,6 @@ def walls_are_right(recording: Recording, said: np.ndarray) -> bool:
     return not marked.any() or (shapes(recording).nearest(middles()[marked]) <= OFF).mean() >= FITS
 
 
-def explored(recording: Recording, parameters: dict[str, Any]) -> Finding:
-    """Pass if so large a share of the rooms was seen and is free in the last map."""
-    wanted = parameters["share"]
-    expected = f"at least {wanted:.0%} of the free cells of the rooms are seen, and free in the map"
-    said, at = grid(recording)
-    if said is None:
-        return Finding(False, expected, no_map(recording))
-    every = scans(recording, at)
-    rooms = reachable(recording)
-    seen = along(every, 0, every.ends, np.ones_like(every.hit)) > 0
-    shown_free = (said >= 0) & (said <= FREE)
-    found, there = (seen & shown_free)[rooms].mean(), seen[rooms].mean()
-    measured = f"{found:.0%} of {rooms.sum()} cells; the scanner saw {there:.0%}"
-    if found >= wanted:
-        return Finding(True, expected, measured)
-    driven = recording.signal("truth/robot/distance").values.max(initial=0.0)
-    turned = np.ptp(recording.signal("truth/robot/yaw").values) if len(recording.signal("truth/robot/yaw")) else 0.0
-    words = not_as_it_was_seen(recording, said, every)  # it drives by its map
-    if not words and not (said < 0).any():
-        words = "no cell of the map is unknown, so nothing is left to explore: what no ray has passed yet is -1, not 0"
-    if not words and driven < MOVED:
-        words = "the robot never drove" if turned < 0.5 else "the robot turned on the spot and never drove"
-        more = driving.stands(recording)
-        words += f" ({more})" if more else ": it saw what can be seen from its start"
-    elif not words and there < wanted:
-        words = driving.slow_or_lost(recording) or driving.standing(recording)
-        words = words or "the robot did not come to every corner in time"
-    return Finding(False, expected, measured, explanation=words)
-
-
-def not_as_it_was_seen(recording: Recording, said: np.ndarray, every: Scans) -> str:
-    """Return what is wrong with a map by which a robot may drive; empty if it shows what was seen."""
-    if not walls_are_right(recording, said):
-        return why(recording, said, every)
-    hit = cells(hits(every)) > 0
-    passed = (along(every, 0, every.ends - 2 * RESOLUTION, every.hit) >= HITS) & ~hit
-    if passed.sum() < FEWEST:
-        return ""
-    return wrongly(recording, said, passed, hit)
-
-
-def reachable(recording: Recording) -> np.ndarray:
-    """Return the cells (80, 100) that are free in truth and connected with the start of the robot."""
-    open_cells = (shapes(recording).nearest(middles()) > RESOLUTION).reshape(HEIGHT, WIDTH)
-    rooms = grown(grown(cells(true_poses(recording, np.zeros(1))[:, :2]) > 0)) & open_cells
-    size = 0
-    while rooms.sum() > size:
-        size = int(rooms.sum())
-        rooms = grown(rooms) & open_cells
-    return rooms
-
-
-def touches_nothing(recording: Recording, parameters: dict[str, Any]) -> Finding:
-    """Pass if the robot, a disc, never came to an obstacle."""
-    x, y = recording.signal("truth/robot/x"), recording.signal("truth/robot/y")
-    expected = f"the robot's middle stays more than {parameters['radius']:g} m away from everything"
-    if not len(x):
-        return Finding(False, expected, "the run ended before it began", gated=True)
-    distances, names = shapes(recording).distances(np.stack([x.values, y.values], 1))
-    least = distances.min(axis=0)
-    which, when = int(distances[:, least.argmin()].argmin()), int(least.argmin())
-    touching = least < parameters["radius"] + MARGIN
-    if not touching.any():
-        measured = f"the nearest was {names[which]} at {x.times[when] / 1e9:.1f} s, {least[when]:.2f} m from its middle"
-        return Finding(True, expected, measured)
-    first = int(np.argmax(touching))
-    name, at = names[int(distances[:, first].argmin())], float(x.times[first] / 1e9)
-    words = f"the robot ran into {name} at {at:.1f} s, at ({x.values[first]:.1f}, {y.values[first]:.1f})"
-    point = driving.nearest_point(shapes(recording), (x.values[first], y.values[first]))
-    there = map_at(recording, point, int(x.times[first]))
-    words += f"; {driving.touched(recording, parameters['radius'], x.times[first], point, there)}"
-    measured = f"it touched something in {touching.sum()} of {len(touching)} moments"
-    return Finding(False, expected, measured, round(at, 3), explanation=words)
-
-
-def map_at(recording: Recording, point: np.ndarray, when: int) -> str:
-    """Return what the last map before a time [ns] shows at a point [m]; empty if there is none."""
-    number = int(np.sum(recording.arrays(f"{MAP}/data")[0] < when)) - 1
-    said, at = grid(recording, number) if number >= 0 else (None, 0.0)
-    return driving.in_the_map(said, point, at) if said is not None else ""
-
-
 def why(recording: Recording, said: np.ndarray, scan: Scans) -> str:
     """Return the misconception that fits the occupied cells of a wrong map; empty if none does."""
     marked = said >= OCCUPIED
@@ -339,21 +253,23 @@ def why(recording: Recording, said: np.ndarray, scan: Scans) -> str:
         for words, changed in arrangements.scaled(np.concatenate([hits(scan), scan.pose[:, :2]])):
             if drawn.any() and grown(changed)[drawn].mean() > FITS and changed.sum() < 0.5 * hit.sum():
                 return words
-        return driving.hardly_any(recording, said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]], hit)
+        return map_faults.hardly_any(
+            recording, said, [np.asarray(row) for row in recording.arrays(f"{MAP}/data")[1]], hit
+        )
     for words, changed in arrangements.rearranged(marked):
         if fits(changed):
             return words
     off_x, off_y = info(recording, "origin/position/x") - LEFT, info(recording, "origin/position/y") - BOTTOM
     for words, changed in (
         *arrangements.shifted(marked),
-        *driving.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION),
+        *map_faults.by_own_origin(marked, off_x / RESOLUTION, off_y / RESOLUTION),
     ):
         if changed.sum() >= FEWEST and solid[changed].mean() >= FITS > solid[marked].mean():
             return words
     for words, changed in arrangements.moved(marked, solid, scan.pose[0]):
         if solid[changed].mean() >= TRUE > 0.85 > solid[marked].mean():
             return words
-    words = driving.thick(recording, said, hit) or drawn_elsewhere(recording)
+    words = map_faults.thick(recording, said, hit) or drawn_elsewhere(recording)
     if words := words or suspect(recording, "counter", "pose", "stride"):
         return words
     return first_arcs(recording, solid) or lags.drawn_late(said, marked, solid, scan)

@@ -7,7 +7,7 @@ import numpy as np
 from gz_course.grader.feedback.recorded.suspects import suspect
 from gz_course.grader.record.reading import Recording
 
-from . import driving
+from . import map_faults
 
 OCCUPIED, FREE = 65, 25  # at least, at most
 FEWEST = 30  # cells; fewer say nothing about a map
@@ -26,11 +26,11 @@ def wrongly(recording: Recording, said: np.ndarray, passed: np.ndarray, hit: np.
     if (values < 0).mean() > MANY and (said < 0).mean() > 0.999:
         return suspect(recording, "forgets", "cell") or "all cells of the map are unknown"
     if (values < 0).mean() > MANY and walls >= FEWEST:
-        return driving.not_free(said, passed, np.zeros_like(passed))
+        return map_faults.not_free(said, passed, np.zeros_like(passed))
     between = (values > FREE) & (values < OCCUPIED)
     if between.mean() > MANY:
         return f"most cells that rays passed have values such as {np.median(values[between]):.0f}, which is not free"
     shown = said[hit]
     if walls < FEWEST <= hit.sum() and ((shown >= 0) & (shown <= FREE)).mean() > MANY:
-        return suspect(recording, "erased") or driving.hardly_any(recording, said, [], hit)
+        return suspect(recording, "erased") or map_faults.hardly_any(recording, said, [], hit)
     return ""

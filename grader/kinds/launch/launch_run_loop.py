@@ -44,7 +44,7 @@ class LaunchRunLoop(RunLoop):
     watches = False
 
     def _begin(self, plan: RunPlan, domain: int) -> None:
-        shown = Path(self._processes.folder)
+        shown = Path(self._processes.log.folder)
         self._programs = SimulatedPrograms(
             plan.files.keys(), shown, self._trial.seed, self._gz_nodes[0], self._open, lambda: self._ros
         )

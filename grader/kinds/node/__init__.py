@@ -124,6 +124,7 @@ def run_loop() -> type[RunLoop]:
 def diagnosis() -> Diagnosis:
     """Explain runs by the student's node: possible faults in the order in which one would look for them."""
     from gz_course.grader.score import diagnosis as looks
+    from gz_course.grader.score import topic_faults
     from gz_course.grader.score.clocks import clock_fault
     from gz_course.grader.score.crash import survived
     from gz_course.grader.score.lost_numbers import lost_number
@@ -140,14 +141,14 @@ def diagnosis() -> Diagnosis:
             looks.ended_early,
             looks.never_spun,
             looks.out_of_time,
-            looks.publishers,
-            looks.subscriptions,
-            looks.silent,
+            topic_faults.publishers,
+            topic_faults.subscriptions,
+            topic_faults.silent,
             looks.dropped,
             parameter_not_set,
             looks.unstable,
         ),
-        (looks.slips, survived, looks.whole_number_fault, lost_number, clock_fault, looks.too_early),
+        (looks.slips, survived, looks.whole_number_fault, lost_number, clock_fault, topic_faults.too_early),
     )
 
 

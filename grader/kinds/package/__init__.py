@@ -88,7 +88,7 @@ def diagnosis() -> Diagnosis:
 
 def misdirected(recording: Recording, facts: dict[str, Any]) -> str:
     """Name the topic to which the student's node publishes in vain, or from which it hears nothing."""
-    from gz_course.grader.score.diagnosis import publishers, subscriptions
+    from gz_course.grader.score.topic_faults import publishers, subscriptions
 
     offered = facts.get("offered", {}).items() - {("/clock", "rosgraph_msgs/msg/Clock")}
     ends = facts.get("endpoints", [])

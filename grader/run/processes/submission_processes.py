@@ -28,17 +28,12 @@ from gz_course.grader.run.processes.participant import Participant
 from gz_course.grader.run.processes.peer import BoxProcesses, Peer
 from gz_course.grader.run.processes.process_tree import ProcessTree
 from gz_course.grader.run.processes.progress import Endpoint
+from gz_course.grader.run.processes.submission_log import SubmissionLog
 from gz_course.grader.run.sandbox import Sandbox
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.grader.run.watchdog import cpu_seconds, is_stopped
 
-LONGEST_LINE = 2_000  # [characters] kept of one line
-MOST_LINES = 20_000  # kept per run
-# kept of the rest if the submission ends by itself, because the reason stands there; lines in between are counted
-LAST_BYTES = 64 << 10
-MOST_READ = 1 << 20  # [bytes] read from a pipe in one call, so that an endless writer does not stop the grader
 LOOK_AGAIN = 0.1  # [s] between two looks at the clock while the end is awaited
-SHOWN_FOLDER = b"/submission"  # name of the submission's folder in its log
 MOST_IN_VAIN = 30  # processes that are waited for and never take part
 GRACE = 1.5  # [s] between SIGINT, SIGTERM and SIGKILL
 
@@ -81,15 +76,9 @@ class SubmissionProcesses:
         self.asked = asked or _unasked
         self._children_before = _children()
         self._apart = frozenset(each.pid for each in self._children_before)
-        self.folder = shown
         self._process = sandbox.start(list(command), variables, () if beside is None else (beside.go,))
         self._selector = selectors.DefaultSelector()
-        self._partial: dict[int, bytes] = {}
-        self._pipes = [self._process.stdout, self._process.stderr]
-        for pipe in self._pipes:
-            os.set_blocking(pipe.fileno(), False)
-            self._partial[pipe.fileno()] = b""
-            self._selector.register(pipe, selectors.EVENT_READ)
+        self.log = SubmissionLog((self._process.stdout, self._process.stderr), self._selector, shown)
         for each in (self._listener, *(() if beside is None else (beside.door, beside.link))):
             self._selector.register(each, selectors.EVENT_READ)
         self.participants: list[Participant] = []
@@ -99,10 +88,6 @@ class SubmissionProcesses:
         # The thread that waits for them looks at them again and again, and each time it waits for a processor.
         self.clock_but_mine = FairClock(self._everybody, threading.get_native_id())
         self._tree = ProcessTree(self._box.age, self.clock.now, self.clock.delayed)
-        self._lines: list[str] = []
-        self._line_count = 0
-        self._last = b""  # end of what was written beyond the limit
-        self._last_taken = 0  # lines
         self.now_ns = 0  # simulated time, told to processes that ask for it
         self.exit_code: int | None = None
         self.hid = False  # whether it closed its end of the socket and lived on
@@ -122,18 +107,12 @@ class SubmissionProcesses:
         """Whether one of its processes was stopped (SIGSTOP) and not continued."""
         return any(is_stopped(each) for each in self._members())
 
-    @property
-    def dropped_lines(self) -> int:
-        """Lines beyond the limit that were read and discarded."""
-        return max(0, self._line_count - MOST_LINES - self._last_taken)
-
     def wait(self, timeout: float) -> bool:
         """Wait at most `timeout` [s] for output, progress or the end; return whether something came."""
         if not self.running:
             return False
         ready = self._selector.select(timeout)
-        for pipe in self._pipes:
-            self._drain(pipe.fileno())
+        self.log.read()
         self._read_participants()
         if any(each.number == 0 and each.gone for each in self.participants) or self._process.poll() is not None:
             self._reap()
@@ -170,47 +149,6 @@ class SubmissionProcesses:
     def endpoints(self) -> tuple[Endpoint, ...]:
         """The endpoints of the nodes of all processes, as last reported."""
         return tuple(e for p in self.followed if p.progress for e in p.progress.endpoints)
-
-    def take_lines(self) -> list[str]:
-        """Return the lines written since the last call."""
-        lines, self._lines = self._lines, []
-        return lines
-
-    def _drain(self, fd: int) -> None:
-        left = MOST_READ
-        while fd in self._partial and left > 0:
-            try:
-                data = os.read(fd, 1 << 16)
-            except BlockingIOError:
-                return
-            left -= len(data)
-            if not data:
-                self._selector.unregister(fd)
-                rest = self._partial.pop(fd)
-                if rest:
-                    self._keep(rest)
-                return
-            if self._line_count > MOST_LINES:  # not line by line, which is slower than a flood is written
-                self._line_count += data.count(b"\n")
-                self._last = (self._last + self._partial[fd] + data)[-LAST_BYTES:]
-                self._partial[fd] = b""
-                continue
-            *whole, rest = (self._partial[fd] + data).split(b"\n")
-            for line in whole:
-                self._keep(line)
-            self._partial[fd] = rest[: 4 * LONGEST_LINE]
-
-    def _keep(self, line: bytes) -> None:
-        self._line_count += 1
-        if self._line_count <= MOST_LINES:
-            self._note(line)
-        else:
-            self._last += line + b"\n"
-
-    def _note(self, line: bytes) -> None:
-        if self.folder:
-            line = line.replace(self.folder.encode(), SHOWN_FOLDER)  # the real path differs between equal runs
-        self._lines.append(line.decode(errors="replace")[:LONGEST_LINE])
 
     def _read_participants(self) -> None:
         while (accepted := _accepted(self._listener)) is not None:
@@ -272,15 +210,9 @@ class SubmissionProcesses:
         if not self._ends_within(GRACE):
             self.hid = True
             self.stop()
-        for pipe in self._pipes:
-            self._drain(pipe.fileno())
+        self.log.read()
         self._read_participants()
-        last = self._last.removesuffix(b"\n").split(b"\n") if self._last else []
-        if len(self._last) == LAST_BYTES:
-            del last[0]  # remove an incomplete line
-        for line in last:
-            self._note(line)
-        self._last, self._last_taken = b"", self._last_taken + len(last)
+        self.log.finish()
         self.exit_code = self._process.returncode
 
     def signal(self, number: signal.Signals) -> None:
@@ -346,8 +278,7 @@ class SubmissionProcesses:
         self._listener.close()
         for each in self.participants:
             each.close()
-        for pipe in self._pipes:
-            pipe.close()
+        self.log.close()
 
 
 def _accepted(door: socket.socket) -> socket.socket | None:

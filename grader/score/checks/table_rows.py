@@ -11,8 +11,8 @@ from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.feedback.predictions.tables import missing_rows
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
-from gz_course.grader.score.diagnosis import OWN_TOPICS
 from gz_course.grader.score.graphs import links
+from gz_course.grader.score.topic_faults import OWN_TOPICS
 from gz_course.sim.did_you_mean import nearest_name
 
 

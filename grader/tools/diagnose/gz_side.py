@@ -18,7 +18,7 @@ from gz_course.sim.gz.msgs.sdf_generator_config_pb2 import SdfGeneratorConfig
 from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
-from gz_course.sim.gz.transport import Node, naming, network
+from gz_course.sim.gz.transport import Node, naming, process_network
 
 TEXT_WITHIN_MS = 1000
 MOST_WORLDS = 10
@@ -70,7 +70,7 @@ def _worlds(side: GzSide) -> list[GzWorld]:
 def _elsewhere(partition: str) -> dict[str, set[str]]:
     """Return the worlds of all other partitions: partition -> names."""
     found: dict[str, set[str]] = {}
-    for name, _ in network.joined().known_elsewhere()[0]:
+    for name, _ in process_network.joined().known_elsewhere()[0]:
         other, topic = naming.split(name)
         if other.strip("/") != partition.strip("/") and (world := _world_of(topic)):
             found.setdefault(other.strip("/"), set()).add(world)

@@ -54,7 +54,7 @@ class LocalDelivery:
 
     def end_later(self, work: Callable[[], None]) -> None:
         """Leave the work of a finalizer to another thread; takes no lock."""
-        module = sys.modules.get(f"{__package__}.network")
+        module = sys.modules.get(f"{__package__}.process_network")
         network = module.present() if module else None
         if network:
             network.do(work)

@@ -45,9 +45,9 @@ class Publisher:
         self._finalizer = weakref.finalize(self, _forget, advertisement)
         self._finalizer.atexit = False  # the network says farewell at exit
         if advertisement.scope != Scope.PROCESS:
-            from gz_course.sim.gz.transport import network
+            from gz_course.sim.gz.transport import process_network
 
-            self._joined = network.joined
+            self._joined = process_network.joined
         self.name = advertisement.name
         self.type_name = advertisement.type_name
         self.node_uuid = advertisement.node_uuid

@@ -15,18 +15,18 @@ def network_for(scope: Scope) -> Network | None:
     """Return the network of this process; None for `Scope.PROCESS`, which opens no socket."""
     if scope == Scope.PROCESS:
         return None
-    from gz_course.sim.gz.transport import network
+    from gz_course.sim.gz.transport import process_network
 
-    return network.joined()
+    return process_network.joined()
 
 
 def present_network_for(scope: Scope) -> Network | None:
     """Return the network of this process if it has joined one already and the scope requires it."""
     if scope == Scope.PROCESS:
         return None
-    from gz_course.sim.gz.transport import network
+    from gz_course.sim.gz.transport import process_network
 
-    return network.present()
+    return process_network.present()
 
 
 def sending_together() -> contextlib.AbstractContextManager[None]:

@@ -17,7 +17,8 @@ from pathlib import Path, PurePosixPath
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros.ament_cmake import interfaces
-from gz_course.sim.ros.ament_cmake.cmake_lists import CMakeLists, read_cmake_lists
+from gz_course.sim.ros.ament_cmake.cmake_commands import CMakeLists
+from gz_course.sim.ros.ament_cmake.cmake_lists import read_cmake_lists
 from gz_course.sim.ros.ament_cmake.errors import PackageError, at
 from gz_course.sim.ros.ament_cmake.package_manifest import PackageManifest, read_manifest
 from gz_course.sim.ros.rosidl.packages import ALL, INDEX, MARKS

@@ -12,7 +12,7 @@ from pathlib import Path
 from rosidl_parser import definition as idl
 
 from gz_course.sim.did_you_mean import did_you_mean
-from gz_course.sim.ros.ament_cmake.cmake_lists import CMakeLists
+from gz_course.sim.ros.ament_cmake.cmake_commands import CMakeLists
 from gz_course.sim.ros.ament_cmake.errors import PackageError, at
 from gz_course.sim.ros.ament_cmake.package_manifest import PackageManifest, read_manifest
 from gz_course.sim.ros.rosidl.errors import InvalidInterfaceError

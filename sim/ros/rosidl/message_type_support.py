@@ -31,7 +31,8 @@ from gz_course.sim.ros.rosidl.c_structs import (
     capsule,
     keep,
 )
-from gz_course.sim.ros.rosidl.cdr import Decode, Encode, MalformedError, decoder, encoder
+from gz_course.sim.ros.rosidl.cdr_reader import Decode, MalformedError, decoder
+from gz_course.sim.ros.rosidl.cdr_writer import Encode, encoder
 from gz_course.sim.ros.rosidl.described_type import DescribedType
 from gz_course.sim.ros.rosidl.introspection import IDENTIFIER as INTROSPECTION
 from gz_course.sim.ros.rosidl.introspection import message_members

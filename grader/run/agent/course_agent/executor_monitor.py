@@ -30,25 +30,25 @@ import contextlib
 import json
 import os
 import threading
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
 from . import grader_requests, other_domains
 from .channel import Channel
 from .endpoint_description import KEPT, described, qos_can_match
+from .held_messages import HeldMessages
 from .history import History
 from .inbox import blocked, fill, is_copy
 from .patience import await_found, await_signal
 from .signals import Signal
-from .thread_monitor import ThreadMonitor, monotonic, sleep, time_ns
+from .thread_monitor import ThreadMonitor, monotonic, time_ns
 
 TOPICS = "COURSE_TOPICS"
 RELIABLE = "reliable"  # kind in TOPICS: what the grader publishes reliably
 HOLD = "COURSE_HOLD"
 # Environment variable that lets sleeping take simulated time: how much of it passes in a second of the clocks.
 SIMULATED_CLOCKS = "COURSE_SIMULATED_CLOCKS"
-UNMATCHED_SLICE = 0.005  # [s] between two looks at an unmatched publisher; DDS gives no event we could wait for
 MOST_LOGGED = 50  # messages on /rosout that are under way
 # [s] of the run's clock: for the grader to receive them, which may be starting up; for it to receive the last messages
 # before a publisher is destroyed; and for a publisher to be matched before it publishes.
@@ -72,9 +72,7 @@ class ExecutorMonitor:
         self.logged = 0  # messages sent to /rosout
         self._confirmed = 0  # of those: known to have arrived, or waited for in vain
         self._log_confirmed = Signal()
-        self._held: deque[tuple[Callable[[], None], Callable[[float], bool]]] = deque()  # what to send, `may_leave`
-        self._holding = holding
-        self._released = 0
+        self._held = HeldMessages(holding)
         self.lost: Counter[str] = Counter()
         # Topics whose early messages DDS keeps for late joiners: when their publishers were found, in real time [ns].
         self._found_at: dict[str, int] = {}
@@ -103,7 +101,7 @@ class ExecutorMonitor:
     @property
     def holds(self) -> bool:
         """Whether sent messages are queued until the grader releases them."""
-        return self._holding and self._channel.open
+        return self._held.holding and self._channel.open
 
     def count(self, counter: Counter[str], name: str, number: int = 1) -> None:
         """Add to one of the counters; thread-safe."""
@@ -115,7 +113,7 @@ class ExecutorMonitor:
         if not self.holds:
             send()
             return
-        self._held.append((send, may_leave))
+        self._held.add(send, may_leave)
         if self.threads.idle:  # sent by a thread that is not watched, so nobody will report it
             self.report()
 
@@ -136,7 +134,7 @@ class ExecutorMonitor:
         if grader_requests.hear(order) and order is not None:
             return
         if order is None:
-            self._let_go()
+            self._held.let_go()
             self.threads.release_all()
             for each in (self._answered, self._log_confirmed, self._told_time):
                 each.set()
@@ -158,14 +156,14 @@ class ExecutorMonitor:
         elif "logs_arrived" in order:
             self._log_confirmed.set()
         elif "hold" in order:
-            self._holding = True
+            self._held.holding = True
             self.report()
         elif "free" in order:
-            self._let_go()
+            self._held.let_go()
             if "real" in order:
                 self.threads.release_all()
         elif "release" in order:
-            self._release(order["release"])
+            self._held.release(order["release"])
             self.report()
         elif "again" in order:
             self.again.add(order["again"])
@@ -175,26 +173,6 @@ class ExecutorMonitor:
                 self._layout = ()
                 self._refresh_endpoints()
             self.report()
-
-    def _let_go(self) -> None:
-        self._holding = False
-        while self._held:
-            self._send_next()
-
-    def _release(self, now: float) -> None:
-        """Send the first message, or none while that may not leave yet: then the order comes again."""
-        if self._held and not self._held[0][1](now):
-            self._released += 1
-            sleep(UNMATCHED_SLICE)
-        else:
-            self._send_next()
-
-    def _send_next(self) -> None:
-        with contextlib.suppress(IndexError):
-            send, _ = self._held.popleft()
-            with contextlib.suppress(Exception):  # its publisher may be destroyed already, as in a process that ends
-                send()
-        self._released += 1
 
     def await_match(self, publisher: Any) -> bool:
         """Return whether a publisher has been found by others; False while its process has not waited since it is.
@@ -348,12 +326,11 @@ class ExecutorMonitor:
         self.report(flushing=True)
         if await_signal(self.threads, self._answered, FLUSH_PATIENCE):
             self._flushed = self._sent()
-        while self._held:  # not released by the grader in time
-            self._send_next()
+        self._held.send_all()  # not released by the grader in time
         self.report()  # it is at work again: simulated time stands still until it waits or is gone
 
     def _sent(self) -> int:
-        return self._released + self.published.total() + self.delivered.total() + self.logged
+        return self._held.released + self.published.total() + self.delivered.total() + self.logged
 
     def report(self, flushing: bool = False) -> None:
         """Send the counts if they changed since the last report."""
@@ -373,9 +350,9 @@ class ExecutorMonitor:
                 "taken": self.taken,
                 "published": self.published,
                 "delivered": self.delivered,
-                "holding": self._holding,
+                "holding": self._held.holding,
                 "held": len(self._held),
-                "released": self._released,
+                "released": self._held.released,
                 "flushes": self._flushes,
                 "logged": self.logged,
                 "spun": self.spun,

@@ -12,7 +12,8 @@ from typing import Any
 
 from .python_3_os import SIGNALS
 from .self_check import Reliance, require
-from .thread_monitor import ThreadMonitor, WatchedLock, sleep
+from .thread_monitor import ThreadMonitor, sleep
+from .watched_lock import WatchedLock
 
 # Source: threading.py, queue.py and concurrent/futures/thread.py of CPython 3.11.
 THREADS: dict[str, Reliance] = {

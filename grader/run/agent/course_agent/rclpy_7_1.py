@@ -1,7 +1,8 @@
 """All patches of rclpy 7.1 (ROS 2 Jazzy): they report when a process has nothing left to do.
 
-`import_hooks.py` calls `install` as soon as rclpy is imported. Patched are every publish, take, request and response,
-and the destruction of publishers; in `rclpy_7_1_waits.py` the executor's wait and all others. `executor_monitor.py`
+`import_hooks.py` calls `install` as soon as rclpy is imported. Patched are every publish and take, and
+the destruction of publishers; in `rclpy_7_1_services.py` requests and responses; in `rclpy_7_1_waits.py` the executor's
+wait and all others. `executor_monitor.py`
 counts and reports. `RELIED_UPON` lists everything in rclpy on which this depends. The grader trusts none of it: a
 process that reports falsely only spoils its own run.
 """
@@ -9,7 +10,6 @@ process that reports falsely only spoils its own run.
 from __future__ import annotations
 
 import atexit
-import copy
 import functools
 import json
 import os
@@ -23,7 +23,8 @@ from .executor_monitor import HOLD, HOUSEKEEPING, SIMULATED_CLOCKS, TOPICS, Exec
 from .history import kept_depth
 from .inbox import Kept, fill, has_kept, is_copy, kept
 from .python_3_threads import install_threads
-from .rclpy_7_1_waits import may_ask, nudge, watch_waits
+from .rclpy_7_1_services import variables_of, watch_services
+from .rclpy_7_1_waits import nudge, watch_waits
 from .rosout_counter import watch_logging
 from .self_check import Reliance, misfits
 from .tracebacks import print_traceback
@@ -108,7 +109,7 @@ def install() -> None:
     _watch_messages(_monitor)
     _watch_nodes(_monitor)
     _make_subscriptions_reliable(_monitor)
-    _watch_services(_monitor)
+    watch_services(_monitor)
     watch_logging(_monitor)
     channel().send({"ros": True})
     atexit.register(_monitor.flush)
@@ -133,7 +134,7 @@ def _watch_messages(monitor: ExecutorMonitor) -> None:
         if callback is None:
             return None
         topic = monitor.topic_of(subscription)
-        if is_copy(subscription, _variables(callback)["msg_tuple"][0]) and topic in monitor.again:
+        if is_copy(subscription, variables_of(callback)["msg_tuple"][0]) and topic in monitor.again:
             return None
         monitor.count(monitor.taken, topic)
         return callback
@@ -284,80 +285,3 @@ def _unlimited(profile: Any) -> Any:
         return profile
     asked.history = HistoryPolicy.KEEP_ALL
     return asked.get_c_qos_profile()
-
-
-def _watch_services(monitor: ExecutorMonitor) -> None:
-    """Patch requests and responses, on clients and services."""
-    from rclpy.client import Client
-    from rclpy.executors import Executor
-    from rclpy.service import Service
-    from rclpy.task import Future
-
-    take_request, take_response = Executor._take_service, Executor._take_client
-    respond = Service.send_response
-
-    def watched_take_request(executor: Any, service: Any) -> Any:
-        if has_kept(service):
-            return take_request(executor, Kept(service, kept(service).popleft()))
-        callback = take_request(executor, service)
-        if _took(callback, "request_and_header"):
-            monitor.count(monitor.taken, f"request {service.service_name}")
-        return callback
-
-    def watched_take_response(executor: Any, client: Any) -> Any:
-        if has_kept(client):
-            return take_response(executor, Kept(client, kept(client).popleft()))
-        callback = take_response(executor, client)
-        if _took(callback, "header_and_response"):
-            monitor.count(monitor.taken, f"response {client.service_name}")
-        return callback
-
-    def watched_call_async(client: Any, request: Any) -> Any:
-        if not isinstance(request, client.srv_type.Request):
-            raise TypeError
-        asked = copy.deepcopy(request)
-        future = Future()
-        future.add_done_callback(client.remove_pending_request)
-
-        def send() -> None:
-            with client._lock, client.handle:
-                if not future.done():
-                    sequence = client.handle.send_request(asked)
-                    client._pending_requests[sequence] = future
-            if client.service_is_ready():
-                monitor.count(monitor.delivered, f"request {client.service_name}")
-
-        monitor.hold(send, may_ask(client, client.service_is_ready))
-        return future
-
-    def watched_respond(service: Any, response: Any, header: Any) -> None:
-        if not isinstance(response, service.srv_type.Response):
-            raise TypeError
-
-        def send() -> None:
-            respond(service, response, header)
-            monitor.count(monitor.delivered, f"response {service.service_name}")
-
-        monitor.hold(send)
-
-    Executor._take_service = watched_take_request
-    Executor._take_client = watched_take_response
-    Client.call_async = watched_call_async
-    Service.send_response = watched_respond
-
-
-def _took(callback: Any, pair: str) -> bool:
-    """Return whether something was taken: a response to another client wakes a client, too, which takes nothing.
-
-    `callback` is what the executor is going to run; its variable `pair` holds what was taken.
-    """
-    if callback is None:
-        return False
-    variables = _variables(callback)
-    return pair in variables and None not in variables[pair]
-
-
-def _variables(callback: Any) -> dict[str, Any]:
-    """Return the variables of a closure."""
-    cells = callback.__closure__ or ()
-    return {name: cell.cell_contents for name, cell in zip(callback.__code__.co_freevars, cells, strict=False)}

@@ -11,7 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 from . import inbox
-from .executor_monitor import UNMATCHED_SLICE, ExecutorMonitor
+from .executor_monitor import ExecutorMonitor
+from .held_messages import UNMATCHED_SLICE
 from .patience import await_found
 from .rclpy_7_1_coroutines import watch_coroutines
 from .signals import Signal

@@ -79,7 +79,7 @@ def test_a_message_that_may_not_leave_yet_stays_where_it_is(tmp_path):
     for now, expected in ((1.0, []), (2.0, ["request"]), (0.0, ["request", "message"])):
         monitor._obey({"release": now})
         assert sent == expected
-    assert monitor._released == 3
+    assert monitor._held.released == 3
 
 
 def test_who_makes_a_node_is_at_work_whatever_it_has_waited_for_unseen(tmp_path):

@@ -90,7 +90,7 @@ def play(tmp_path, monkeypatch):
             )
             try:
                 played.pace = pace = LockStep(student, ros, holding)
-                assert pace.await_ready(), student.take_lines()
+                assert pace.await_ready(), student.log.take_lines()
                 for tick in range(1, ticks + 1):
                     pace.welcome()
                     if before_tick is not None:
@@ -104,7 +104,7 @@ def play(tmp_path, monkeypatch):
                         pace.send(topic, publisher, message, tick * TICK_NS)
                         pace.settle()
                     pace.close_tick(0.1)
-                    played.lines += student.take_lines()
+                    played.lines += student.log.take_lines()
                 played.too_early = pace.too_early()
             finally:
                 student.close()

@@ -84,7 +84,7 @@ def until(processes, condition):
     while not condition(lines):
         assert time.monotonic() < deadline, (lines, processes.beside.lines, processes.beside.exit_code)
         processes.wait(0.05)
-        lines += processes.take_lines()
+        lines += processes.log.take_lines()
     return lines
 
 

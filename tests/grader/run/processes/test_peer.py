@@ -73,7 +73,7 @@ def boxed(tmp_path, monkeypatch):
 def until(processes, condition):
     deadline = time.monotonic() + DEADLINE
     while not condition():
-        assert time.monotonic() < deadline, processes.take_lines()
+        assert time.monotonic() < deadline, processes.log.take_lines()
         processes.wait(0.05)
 
 
@@ -85,7 +85,7 @@ def test_each_process_of_the_box_connects_once_and_is_what_it_is(boxed, level):
     lines = []
 
     def refused():
-        lines.extend(processes.take_lines())
+        lines.extend(processes.log.take_lines())
         return any(line.startswith("second b''") for line in lines)
 
     until(processes, refused)

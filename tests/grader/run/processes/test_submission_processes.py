@@ -11,12 +11,8 @@ import pytest
 
 from gz_course.grader.kinds.programs import node_command
 from gz_course.grader.run.domain import Domain
-from gz_course.grader.run.processes.submission_processes import (
-    LAST_BYTES,
-    LONGEST_LINE,
-    MOST_LINES,
-    SubmissionProcesses,
-)
+from gz_course.grader.run.processes.submission_log import LAST_BYTES, LONGEST_LINE, MOST_LINES
+from gz_course.grader.run.processes.submission_processes import SubmissionProcesses
 from gz_course.grader.run.sandbox import Sandbox
 from gz_course.tests.descriptors import left_open, own_descriptors
 
@@ -83,14 +79,14 @@ def ended(student):
 def test_lines_of_both_pipes_and_the_exit_code(start):
     student = start("import sys\nprint('out')\nprint('err', file=sys.stderr)\nsys.exit(3)")
     assert ended(student) == 3
-    assert sorted(student.take_lines()) == ["err", "out"]
-    assert student.take_lines() == []
+    assert sorted(student.log.take_lines()) == ["err", "out"]
+    assert student.log.take_lines() == []
 
 
 def test_it_runs_as_main_with_ros_arguments_and_simulated_time(start):
     student = start("import sys\nprint(__name__, sys.argv[1:], __file__)")
     ended(student)
-    (line,) = student.take_lines()
+    (line,) = student.log.take_lines()
     assert line.startswith("__main__ ['--ros-args', '-p', 'use_sim_time:=true']")
     assert line.endswith("/node.py")
 
@@ -98,7 +94,7 @@ def test_it_runs_as_main_with_ros_arguments_and_simulated_time(start):
 def test_a_traceback_starts_in_the_students_file(start):
     student = start("def deep():\n    raise ValueError('no')\n\n\ndeep()\n")
     assert ended(student) == 1
-    text = "\n".join(student.take_lines())
+    text = "\n".join(student.log.take_lines())
     assert "participant" not in text and "runpy" not in text
     assert 'node.py", line 5, in <module>' in text and 'node.py", line 2, in deep' in text
 
@@ -107,7 +103,7 @@ def test_a_module_beside_the_file_can_be_imported(start, tmp_path):
     (tmp_path / "speeds.py").write_text("FAST = 2")
     student = start("from speeds import FAST\nprint(FAST)")
     assert ended(student) == 0
-    assert student.take_lines() == ["2"]
+    assert student.log.take_lines() == ["2"]
 
 
 def test_no_secrets_are_in_its_environment(start):
@@ -115,7 +111,7 @@ def test_no_secrets_are_in_its_environment(start):
     ended(student)
     # COURSE_PYTHON comes from the ament prefix: every Python of the environment sets it. The others are meant for the
     # processes it starts, so that they are followed, too.
-    (line,) = student.take_lines()
+    (line,) = student.log.take_lines()
     assert set(ast.literal_eval(line)) - {"COURSE_PYTHON"} == {"COURSE_SOCKET", "COURSE_TOPICS"}
 
 
@@ -138,40 +134,40 @@ def test_simulated_time_starts_at_zero_for_a_node_that_follows_it(start):
 def test_before_a_publisher_goes_it_waits_to_be_answered(start):
     student = start(NODE + "print('before')\nnode.destroy_publisher(commands)\nprint('after')\n")
     until(student, lambda: student.participants and student.participants[0].wants_answer)
-    assert student.take_lines() == ["before"]
+    assert student.log.take_lines() == ["before"]
     student.participants[0].answer()
     assert not student.participants[0].wants_answer
-    until(student, lambda: "after" in student.take_lines())
+    until(student, lambda: "after" in student.log.take_lines())
 
 
 def test_an_answer_that_never_comes_is_not_waited_for(start):
     student = start(NODE + "node.destroy_publisher(commands)\nprint('after')\n")
     assert ended(student) == 0
-    assert "after" in student.take_lines()
+    assert "after" in student.log.take_lines()
 
 
 def test_a_long_line_is_cut_and_the_next_one_is_whole(start):
     student = start("print('x' * 10_000_000)\nprint('next')")
     ended(student)
-    lines = student.take_lines()
+    lines = student.log.take_lines()
     assert [len(line) for line in lines] == [LONGEST_LINE, 4]
 
 
 def test_more_lines_than_are_kept_are_counted(start):
     student = start(f"for n in range({3 * MOST_LINES}): print(n)")
     ended(student)
-    lines = student.take_lines()
+    lines = student.log.take_lines()
     assert lines[:MOST_LINES] == [str(n) for n in range(MOST_LINES)]
     last = lines[MOST_LINES:]
     assert last == [str(n) for n in range(3 * MOST_LINES - len(last), 3 * MOST_LINES)]
     assert LAST_BYTES * 0.99 < sum(len(line) + 1 for line in last) <= LAST_BYTES
-    assert student.dropped_lines == 3 * MOST_LINES - len(lines)
+    assert student.log.dropped_lines == 3 * MOST_LINES - len(lines)
 
 
 def test_bytes_that_are_no_text(start):
     student = start("import os\nos.write(1, b'a\\xff\\xfe\\0b\\nlast')")
     ended(student)
-    assert student.take_lines() == ["a\ufffd\ufffd\0b", "last"]
+    assert student.log.take_lines() == ["a\ufffd\ufffd\0b", "last"]
 
 
 def test_a_flood_does_not_hold_the_grader(start):
@@ -181,7 +177,7 @@ def test_a_flood_does_not_hold_the_grader(start):
     rescue = threading.Timer(10.0, process.kill)  # else this test would hang, not fail
     rescue.start()
     try:
-        until(student, lambda: student._line_count > 0)
+        until(student, lambda: student.log._line_count > 0)
         for _ in range(20):
             student.wait(0.01)
         assert process.is_running() and process.status() != psutil.STATUS_ZOMBIE, "`wait` came back only at its end"
@@ -196,7 +192,7 @@ def test_a_process_that_ignores_signals_is_ended(start, ignored):
         f"for s in (signal.{ignored},): signal.signal(s, signal.SIG_IGN)\n"
         "print('ready')\nwhile True: time.sleep(1)"
     )
-    until(student, lambda: "ready" in student.take_lines())
+    until(student, lambda: "ready" in student.log.take_lines())
     student.stop()
     assert not student.running
     assert not psutil.pid_exists(student._process.pid)
@@ -210,7 +206,7 @@ def test_a_polite_process_may_clean_up(start, tmp_path, inherited):
         f"finally: pathlib.Path({str(tmp_path / 'cleaned')!r}).touch()"
     )
     signal.signal(signal.SIGINT, before)
-    until(student, lambda: "ready" in student.take_lines())
+    until(student, lambda: "ready" in student.log.take_lines())
     student.stop()
     assert (tmp_path / "cleaned").exists()
 
@@ -232,7 +228,7 @@ def daemon_of(student):
     pids = []
 
     def told():  # beside it Python may warn of the fork, in a line that names the test's folder
-        pids.extend(int(x.split()[1]) for x in student.take_lines() if x.startswith("daemon "))
+        pids.extend(int(x.split()[1]) for x in student.log.take_lines() if x.startswith("daemon "))
         return bool(pids)
 
     until(student, told)
@@ -260,7 +256,7 @@ def test_a_process_that_forks_while_it_is_stopped_leaves_nothing(start):
         "import os, time\nprint('ready', flush=True)\n"
         "while True:\n    if os.fork() == 0:\n        os.setsid(); time.sleep(60); os._exit(0)\n    time.sleep(0.002)"
     )
-    until(student, lambda: "ready" in student.take_lines())
+    until(student, lambda: "ready" in student.log.take_lines())
     student.stop()  # the fixture looks for what is left
 
 
@@ -283,7 +279,7 @@ def test_it_dies_with_the_grader(start, tmp_path):
         "from gz_course.grader.kinds.programs import node_command\n"
         "from gz_course.grader.run.processes.submission_processes import *\n"
         f's = SubmissionProcesses(node_command(Path({str(file)!r})), Sandbox(101, "D"), {{}})\n'
-        "while not (lines := s.take_lines()): s.wait(0.1)\n"
+        "while not (lines := s.log.take_lines()): s.wait(0.1)\n"
         "print(lines[0], flush=True); input()"
     )
     grader = subprocess.Popen(

@@ -6,7 +6,7 @@ import threading
 import pytest
 
 from gz_course.sim.gz.msgs.stringmsg_pb2 import StringMsg
-from gz_course.sim.gz.transport import AdvertiseMessageOptions, MessageInfo, Node, NodeOptions, Scope, network
+from gz_course.sim.gz.transport import AdvertiseMessageOptions, MessageInfo, Node, NodeOptions, Scope, process_network
 from gz_course.sim.gz.transport import local_delivery as module
 from gz_course.sim.gz.transport.local_delivery import LocalDelivery
 from gz_course.sim.gz.transport.switchboard import SWITCHBOARD
@@ -176,7 +176,7 @@ def test_a_forgotten_node_without_a_thread_is_tidied_by_the_next_one(monkeypatch
     from gz_course.sim.gz.transport import publisher as publisher_module
 
     delivery = LocalDelivery()
-    monkeypatch.setattr(network, "_network", None)
+    monkeypatch.setattr(process_network, "_network", None)
     monkeypatch.setattr(node_module, "LOCAL_DELIVERY", delivery)
     monkeypatch.setattr(publisher_module, "LOCAL_DELIVERY", delivery)
     node = Node(NodeOptions(scope=Scope.PROCESS))

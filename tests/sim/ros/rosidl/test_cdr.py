@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz_course.sim.ros.rosidl.cdr import MalformedError, decoder, encoder
+from gz_course.sim.ros.rosidl.cdr_reader import MalformedError, decoder
+from gz_course.sim.ros.rosidl.cdr_writer import encoder
 from gz_course.tests.sim.ros.rosidl import every_kind
 from gz_course.tests.sim.ros.rosidl.messages import as_values, fill, message_pairs, seeded
 

@@ -6,7 +6,8 @@ import shutil
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 
-from gz_course.sim.ros.rosidl.cdr import decoder, encoder
+from gz_course.sim.ros.rosidl.cdr_reader import decoder
+from gz_course.sim.ros.rosidl.cdr_writer import encoder
 from gz_course.sim.ros.rosidl.interface_classes import classes_of
 from gz_course.tests.sim.ros.rosidl import compiled_package, every_kind
 from gz_course.tests.sim.ros.rosidl.messages import as_values, fill, seeded

@@ -6,7 +6,8 @@ import json
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 
-from gz_course.sim.ros.rosidl.cdr import decoder, encoder
+from gz_course.sim.ros.rosidl.cdr_reader import decoder
+from gz_course.sim.ros.rosidl.cdr_writer import encoder
 from gz_course.sim.ros.rosidl.definitions import definition
 from gz_course.sim.ros.rosidl.type_description import full_description, individual_descriptions, type_hash
 from gz_course.tests.sim.ros.rosidl.messages import as_values, compiled, fill, installed, made, message_pairs, seeded
