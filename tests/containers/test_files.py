@@ -1,7 +1,9 @@
 """The files for containers, codespaces and Binder are what those who read them expect."""
 
 import json
+import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -90,3 +92,58 @@ def test_binder_installs_what_a_hub_needs():
     assert subprocess.run(["bash", "-n", build]).returncode == 0
     assert "'.[hub]'" in build.read_text()
     assert (ROOT / ".binder/runtime.txt").read_text() == "python-3.11\n"
+
+
+def copy_of(folder, *parts):
+    for part in parts:
+        (folder / part).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / part, folder / part)
+
+
+def test_binder_shows_the_folder_of_the_student(tmp_path):
+    copy_of(tmp_path, ".binder/postBuild", ".binder/start")
+    clone, prefix = tmp_path, tmp_path / "prefix"
+    stub = tmp_path / "bin/python3"
+    stub.parent.mkdir()
+    stub.write_text(
+        '#!/bin/sh\nif [ "$1" = -c ]; then echo "$PREFIX"; else echo "$*" >>asked; [ "$2" != '
+        "gz_course.grader.course_folder.in_clone ] || mkdir my_course; fi\n"
+    )
+    stub.chmod(0o755)
+    outside = {"PATH": f"{stub.parent}:{os.environ['PATH']}", "PREFIX": str(prefix)}
+    subprocess.run([".binder/postBuild"], cwd=clone, env=outside, check=True)
+    assert "-m gz_course.grader.course_folder.in_clone my_course" in (clone / "asked").read_text().splitlines()
+    (config,) = prefix.rglob("jupyter_server_config.d/*.json")
+    for each in json.loads(config.read_text()).values():
+        shown = each["default_url"].removeprefix("/lab/tree/")
+        assert (ROOT / shown).is_file(), shown
+    done = subprocess.run([".binder/start", "pwd"], cwd=clone, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == str((clone / "my_course").resolve())
+
+
+@pytest.mark.parametrize("codespace", [False, True])
+def test_an_editor_that_attaches_opens_what_make_chapters_opens(tmp_path, codespace):
+    copy_of(tmp_path, ".devcontainer/attach.sh", "Makefile", "pyproject.toml", "constraints.txt")
+    for name in ("bin/jupyter", "bin/python"):
+        stub = tmp_path / ".venv" / name
+        stub.parent.mkdir(parents=True, exist_ok=True)
+        stub.write_text('#!/bin/sh\necho "$(basename "$0") $* [$COURSE_PROXY]"\n')
+        stub.chmod(0o755)
+    for made in ("with-course", "with-chapters"):
+        (tmp_path / ".venv" / made).touch()
+    names = {"CODESPACES": "true", "CODESPACE_NAME": "name", "GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN": "app.dev"}
+    done = subprocess.run(
+        ["bash", ".devcontainer/attach.sh"],
+        cwd=tmp_path,
+        env={"PATH": os.environ["PATH"], **(names if codespace else {})},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    (jupyter,) = [line for line in done.stdout.splitlines() if line.startswith("jupyter ")]
+    assert any(
+        line.startswith("python -m gz_course.grader.course_folder.in_clone") for line in done.stdout.splitlines()
+    )
+    assert f"--ServerApp.root_dir={tmp_path.resolve()}/my_course" in jupyter and jupyter.endswith("[/]")
+    assert "my_course/chapters/00_first_run/00_first_run.ipynb" in jupyter and "--port=8888" in jupyter
+    assert ("allow_origin=https://name-8888.app.dev" in jupyter) == codespace
