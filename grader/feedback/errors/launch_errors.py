@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from gz_course.grader.feedback.errors import listed
+from gz_course.grader.feedback.errors import listed, table
 from gz_course.grader.feedback.rules import guarded
 
 # Module of each name that launch files import.
@@ -34,174 +34,95 @@ MODULES = {
 NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) '(\w+)'")
 
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
-MEANINGS = (
-    (
-        re.compile(r"\.py' cannot be started: it is not executable"),
-        "a Python file is started by Python, ExecuteProcess(cmd=[sys.executable, PATH, ...])",
-    ),
-    (
-        re.compile(r"UnknownROSArgsError: \['([\w.]+:=[^']*)'"),
-        "-p is missing before {0}: behind --ros-args, a parameter is two words, -p NAME:=VALUE, and a remapping is -r "
-        "FROM:=TO",
-    ),
-    (
-        re.compile(r"of OpaqueFunction returned holds \[.*of type list"),
-        "a list stands in the list that it returns: actions += [...] and actions.extend([...]) add the items of a "
-        "list, actions.append([...]) adds the list itself",
-    ),
-    (
-        re.compile(r"there is no option '(--?\w+) ([^']+)'"),
-        "'{0} {1}' is one word with a space in it: '{0}' and its value are two items of the list",
-    ),
-    (
-        re.compile(r"Couldn't parse parameter override rule: '-p ([^']*)'"),
-        "{0} sets no parameter: after -p comes NAME:=VALUE, with := and no spaces, such as use_sim_time:=true",
-    ),
-    (
-        re.compile(r"Couldn't parse remap rule: '-r __ns:=([^/'{}][^']*)'"),
-        "a namespace begins with /: __ns:=/{0}",
-    ),
-    (
-        re.compile(r"Couldn't parse remap rule: '-r ([^'{} ]+:=[\w/]*-[^'{} ]*)'"),
-        "{0} is no remapping: the names of ROS consist of letters, digits, _ and /, and here is a -",
-    ),
-    (
-        re.compile(r"Couldn't parse remap rule: '-r ([^']*)'"),
-        "{0} is no remapping: after -r comes FROM:=TO, with := and no spaces; names have no braces, and that of a node "
-        "has no /",
-    ),
-    (
-        re.compile(r"Couldn't parse params file: '--params-file \S*?([\w.-]*bridge[\w.-]*)'"),
-        "{0} is the bridge's own file and no file of ROS parameters: it is the value of the parameter config_file",
-    ),
-    (
-        re.compile(
-            r"Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'"
-        ),
-        "{0} is passed as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another "
-        "type of it",
-    ),
-    (
-        re.compile(r"(?:float|int)\(\) argument must be .*LaunchConfiguration"),
-        "a LaunchConfiguration has no value while the description is made, so Python cannot convert it: "
-        "in the function of an OpaqueFunction, int(LaunchConfiguration('NAME').perform(context)) is its number; for a "
-        "parameter of a node, ParameterValue(..., value_type=float) converts it when the launch runs",
-    ),
-    (
-        re.compile(r"Node has no argument 'use_sim_time'"),
-        "use_sim_time is a parameter of the node: parameters=[{{'use_sim_time': True}}]",
-    ),
-    (
-        re.compile(r"missing required argument '([^']+)'"),
-        "an argument without default_value must be given in every call: DeclareLaunchArgument('{0}', "
-        "default_value='...')",
-    ),
-    (
-        re.compile(r"launch configuration '([^']+)' does not exist"),
-        "no action before this one declares {0}: it needs a DeclareLaunchArgument of the same name, above what uses it",
-    ),
-    (
-        re.compile(
-            r"(?:unsupported operand|can only concatenate|argument must be|PathLike object).*LaunchConfiguration"
-        ),
-        "a LaunchConfiguration has no value while the description is made, so Python cannot join it with anything: "
-        "PathJoinSubstitution([...]) joins the parts of a path when the launch runs, and a list joins texts",
-    ),
-    (
-        re.compile(
-            r"TypeError: (?:can only concatenate str \(not \"int\"\) to str"
-            r"|'str' object cannot be interpreted as an integer"
-            r"|'[<>]=?' not supported between instances of '(?:str|int)' and '(?:str|int)')"
-        ),
-        "one of the two is a text, and the value of a launch argument always is: LaunchConfiguration(...)"
-        ".perform(context) gives '3', and int(...) makes a number of it",
-    ),
-    (
-        re.compile(r"there is no program 'xacro/"),
-        "Command joins its parts as they are, and the space after xacro is missing: ['xacro ', path]",
-    ),
-    (
-        re.compile(r"'LaunchConfiguration' object has no attribute '(?!perform)(\w+)'"),
-        "a LaunchConfiguration is no text and has no {0}: its value is known when the launch runs, where the function "
-        "of an OpaqueFunction gets it with perform(context)",
-    ),
-    (
-        re.compile(r"invalid condition expression: '(\w+)'"),
-        "the condition gets the text {0}, which is neither true nor false; the value of an argument is "
-        "LaunchConfiguration('NAME'), not its name in quotes",
-    ),
-    (
-        re.compile(r"'NoneType' object has no attribute 'perform_substitution'"),
-        "perform() got None for its context: only the function of an OpaqueFunction gets one; elsewhere the "
-        "LaunchConfiguration itself is passed, as an item of the list",
-    ),
-    (
-        re.compile(r"perform\(\) missing 1 required positional argument: 'context'"),
-        "perform(context) gives the text of a configuration while the launch runs, inside of the function of an "
-        "OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is passed",
-    ),
-    (
-        re.compile(r": package '[\w-]+' not found(?!.*did you mean)"),
-        "only what is built and installed is a package, and none of this name is. A file beside the launch file is "
-        "reached by Path(__file__).parent, and a Python file is started by its path",
-    ),
-    (
-        re.compile(r"(?:False|True|None) is of type (?:bool|NoneType); text"),
-        "values of launch arguments are texts: default_value='false', in quotes",
-    ),
-    (
-        re.compile(r"-?[\d.e-]+ is of type (?:int|float); text"),
-        "values of launch arguments and words of a command are texts: '0.5' in quotes, or str(...) of a number",
-    ),
-    (
-        re.compile(r"the Python expression ['\"].*['\"] fails with NameError: name '(true|false)' is not defined"),
-        "the value of an argument is put into the expression as it was typed, and Python writes True and False: use "
-        "IfCondition or UnlessCondition, or compare in quotes, [\"'\", value, \"' == 'true'\"]",
-    ),
-    (
-        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type '\w+', expecting type 'INTEGER'"),
-        "a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', "
-        "1.0), with a point, takes any number",
-    ),
-    (
-        re.compile(r"Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'"),
-        "{0} is passed as a whole number, and the node wants one with a point, such as 1.0",
-    ),
-    (
-        re.compile(r"ParameterAlreadyDeclared.*'use_sim_time'"),
-        "every node declares use_sim_time itself; it is set where the node is started, parameters=[{{'use_sim_time': "
-        "True}}], and not declared again",
-    ),
-    (
-        re.compile(r"command 'xacro (?!/)([\w./-]+)[^']*' failed.*No such file or directory", re.DOTALL),
-        "{0} was looked for in the folder in which ros2 launch was called, not beside the launch file: give its full "
-        "path, str(Path(__file__).parent / '{0}')",
-    ),
-    (
-        re.compile(r"Unknown substitution command \[(\w+)"),
-        "in xacro, $(...) calls a command; the value of a property is written in braces, ${{{0}}}",
-    ),
-    (
-        re.compile(r"(?:xacro.*|^)name '(\w+)' is not defined", re.DOTALL),
-        "no xacro:property above, and no parameter of this macro, is called {0}",
-    ),
-    (
-        re.compile(r"unknown macro name: (?:xacro:)?(\w+)"),
-        "no xacro:macro above is called {0}",
-    ),
-    (
-        re.compile(r"(?:unbound prefix|Undeclared namespace prefix)"),
-        'the root of the file lacks the name of xacro: <robot xmlns:xacro="http://www.ros.org/wiki/xacro">',
-    ),
-    (
-        re.compile(r"mismatched tag|not well-formed|no element found"),
-        "the file is no valid XML: every tag that begins must end, <link ...> with </link>",
-    ),
-    (
-        re.compile(r"(?:No such file or directory: |there is no program )'([\w/.-]+ [^']*)'"),
-        "the whole command line is one word of the list: cmd takes each word by itself, ['gz', 'sim', ...]",
-    ),
-)
+MEANINGS = table(r"""
+\.py' cannot be started: it is not executable
+    a Python file is started by Python, ExecuteProcess(cmd=[sys.executable, PATH, ...])
+UnknownROSArgsError: \['([\w.]+:=[^']*)'
+    -p is missing before {0}: behind --ros-args, a parameter is two words, -p NAME:=VALUE, and a remapping is -r
+    FROM:=TO
+of OpaqueFunction returned holds \[.*of type list
+    a list stands in the list that it returns: actions += [...] and actions.extend([...]) add the items of a list,
+    actions.append([...]) adds the list itself
+there is no option '(--?\w+) ([^']+)'
+    '{0} {1}' is one word with a space in it: '{0}' and its value are two items of the list
+Couldn't parse parameter override rule: '-p ([^']*)'
+    {0} sets no parameter: after -p comes NAME:=VALUE, with := and no spaces, such as use_sim_time:=true
+Couldn't parse remap rule: '-r __ns:=([^/'{}][^']*)'
+    a namespace begins with /: __ns:=/{0}
+Couldn't parse remap rule: '-r ([^'{} ]+:=[\w/]*-[^'{} ]*)'
+    {0} is no remapping: the names of ROS consist of letters, digits, _ and /, and here is a -
+Couldn't parse remap rule: '-r ([^']*)'
+    {0} is no remapping: after -r comes FROM:=TO, with := and no spaces; names have no braces, and that of a node has no
+    /
+Couldn't parse params file: '--params-file \S*?([\w.-]*bridge[\w.-]*)'
+    {0} is the bridge's own file and no file of ROS parameters: it is the value of the parameter config_file
+Trying to set parameter '(\w+)' to '.*' of type 'STRING', expecting type '(?:DOUBLE|INTEGER|BOOL)'
+    {0} is passed as a text; ParameterValue(..., value_type=float), or int or bool, makes a value of another type of it
+(?:float|int)\(\) argument must be .*LaunchConfiguration
+    a LaunchConfiguration has no value while the description is made, so Python cannot convert it: in the function of an
+    OpaqueFunction, int(LaunchConfiguration('NAME').perform(context)) is its number; for a parameter of a node,
+    ParameterValue(..., value_type=float) converts it when the launch runs
+Node has no argument 'use_sim_time'
+    use_sim_time is a parameter of the node: parameters=[{{'use_sim_time': True}}]
+missing required argument '([^']+)'
+    an argument without default_value must be given in every call: DeclareLaunchArgument('{0}', default_value='...')
+launch configuration '([^']+)' does not exist
+    no action before this one declares {0}: it needs a DeclareLaunchArgument of the same name, above what uses it
+(?:unsupported operand|can only concatenate|argument must be|PathLike object).*LaunchConfiguration
+    a LaunchConfiguration has no value while the description is made, so Python cannot join it with anything:
+    PathJoinSubstitution([...]) joins the parts of a path when the launch runs, and a list joins texts
+TypeError: (?:can only concatenate str \(not \"int\"\) to str|'str' object cannot be interpreted as an integer|
+'[<>]=?' not supported between instances of '(?:str|int)' and '(?:str|int)')
+    one of the two is a text, and the value of a launch argument always is: LaunchConfiguration(...).perform(context)
+    gives '3', and int(...) makes a number of it
+there is no program 'xacro/
+    Command joins its parts as they are, and the space after xacro is missing: ['xacro ', path]
+'LaunchConfiguration' object has no attribute '(?!perform)(\w+)'
+    a LaunchConfiguration is no text and has no {0}: its value is known when the launch runs, where the function of an
+    OpaqueFunction gets it with perform(context)
+invalid condition expression: '(\w+)'
+    the condition gets the text {0}, which is neither true nor false; the value of an argument is
+    LaunchConfiguration('NAME'), not its name in quotes
+'NoneType' object has no attribute 'perform_substitution'
+    perform() got None for its context: only the function of an OpaqueFunction gets one; elsewhere the
+    LaunchConfiguration itself is passed, as an item of the list
+perform\(\) missing 1 required positional argument: 'context'
+    perform(context) gives the text of a configuration while the launch runs, inside of the function of an
+    OpaqueFunction, which gets the context; elsewhere, the LaunchConfiguration itself is passed
+: package '[\w-]+' not found(?!.*did you mean)
+    only what is built and installed is a package, and none of this name is. A file beside the launch file is reached by
+    Path(__file__).parent, and a Python file is started by its path
+(?:False|True|None) is of type (?:bool|NoneType); text
+    values of launch arguments are texts: default_value='false', in quotes
+-?[\d.e-]+ is of type (?:int|float); text
+    values of launch arguments and words of a command are texts: '0.5' in quotes, or str(...) of a number
+the Python expression ['\"].*['\"] fails with NameError: name '(true|false)' is not defined
+    the value of an argument is put into the expression as it was typed, and Python writes True and False: use
+    IfCondition or UnlessCondition, or compare in quotes, ["'", value, "' == 'true'"]
+Trying to set parameter '(\w+)' to '.*' of type '\w+', expecting type 'INTEGER'
+    a parameter has the type of its default value, and here that is a whole number: declare_parameter('{0}', 1.0), with
+    a point, takes any number
+Trying to set parameter '(\w+)' to '.*' of type 'INTEGER', expecting type 'DOUBLE'
+    {0} is passed as a whole number, and the node wants one with a point, such as 1.0
+ParameterAlreadyDeclared.*'use_sim_time'
+    every node declares use_sim_time itself; it is set where the node is started, parameters=[{{'use_sim_time': True}}],
+    and not declared again
+(?s)command 'xacro (?!/)([\w./-]+)[^']*' failed.*No such file or directory
+    {0} was looked for in the folder in which ros2 launch was called, not beside the launch file: give its full path,
+    str(Path(__file__).parent / '{0}')
+Unknown substitution command \[(\w+)
+    in xacro, $(...) calls a command; the value of a property is written in braces, ${{{0}}}
+(?s)(?:xacro.*|^)name '(\w+)' is not defined
+    no xacro:property above, and no parameter of this macro, is called {0}
+unknown macro name: (?:xacro:)?(\w+)
+    no xacro:macro above is called {0}
+(?:unbound prefix|Undeclared namespace prefix)
+    the root of the file lacks the name of xacro: <robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+mismatched tag|not well-formed|no element found
+    the file is no valid XML: every tag that begins must end, <link ...> with </link>
+(?:No such file or directory: |there is no program )'([\w/.-]+ [^']*)'
+    the whole command line is one word of the list: cmd takes each word by itself, ['gz', 'sim', ...]
+""")
 
 
 @guarded("")

@@ -158,8 +158,7 @@ def own_arguments(error: str, code: str) -> str:
         return ""
     return (
         f"def {name} takes {int(takes) - own} argument{'' if int(takes) - own == 1 else 's'} besides self, and this "
-        f"call "
-        f"passes {int(given) - own}"
+        f"call passes {int(given) - own}"
         if owner
         else f"def {name} takes {takes} argument{'' if takes == '1' else 's'}, and this call passes {given}"
     )

@@ -11,6 +11,7 @@ from gz_course.grader.feedback.rules import ask
 
 Place = tuple[int, str]  # line, and the words of a sentence
 Places = list[dict[str, Any]]
+Words = Iterator[str | tuple[int | ast.AST, str]]  # of a sentence about a node, or about another place than that
 Node = TypeVar("Node", bound=ast.AST)
 Value = TypeVar("Value")
 One = TypeVar("One", bound=ast.AST)
@@ -166,6 +167,27 @@ def hands_over(loop: ast.AST) -> bool:
 def assignments(tree: ast.AST) -> Iterator[tuple[ast.expr, ast.Assign]]:
     """Yield each assignment to a single target, after the target."""
     return ((node.targets[0], node) for node in nodes_of(tree, ast.Assign) if len(node.targets) == 1)
+
+
+def asked_of(
+    rule: Callable[..., Words], *kinds: type[ast.AST], first: bool = False
+) -> Callable[[ast.Module], Iterator[Place]]:
+    """Let a rule of nodes of some classes, or of the whole tree if there are none, be one that finds lines and words.
+
+    A rule that takes two arguments gets the tree as the second one. With `first`, what it finds first is enough.
+    """
+    with_tree = rule.__code__.co_argcount > 1
+
+    @wraps(rule)
+    def find(tree: ast.Module) -> Iterator[Place]:
+        for node in nodes_of(tree, *kinds) if kinds else (tree,):
+            for found in rule(node, tree) if with_tree else rule(node):
+                where, words = (node, found) if isinstance(found, str) else found
+                yield (where if isinstance(where, int) else where.lineno), words  # type: ignore[attr-defined]
+                if first:
+                    return
+
+    return find
 
 
 def places_in(content: bytes, look: Callable[[ast.Module], Places]) -> Places:

@@ -6,7 +6,8 @@ registered with the words that end the sentence "your answers are ...":
     @predicts("the largest valid range, not the smallest", only=("minimum",))
     def largest(asked: Asked) -> np.ndarray: ...
 
-A prediction with a number in it returns `Named`, with words that name the number.
+One that is a single expression is a line: `predict("rounded", lambda asked: np.round(asked.truth))`. A prediction with
+a number in it returns `Named`, with words that name the number.
 
 A notice is a function that looks at which questions were answered and returns a sentence itself (`@notices`).
 
@@ -159,6 +160,12 @@ def predicts(words: str, only: Sequence[str] = (), rank: int = 1) -> Callable[[F
         return function
 
     return register
+
+
+def predict(words: str, answers: Prediction, only: Sequence[str] = (), rank: int = 1) -> None:
+    """Register a prediction that is one expression, `lambda asked: ...`; its words are its name, too."""
+    answers.__name__ = answers.__qualname__ = words
+    predicts(words, only, rank)(answers)
 
 
 def notices(function: Notice) -> Notice:

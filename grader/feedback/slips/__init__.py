@@ -10,7 +10,7 @@ import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from gz_course.grader.feedback.facts.syntax import Place, Places, places_in
+from gz_course.grader.feedback.facts.syntax import Place, Places, Words, asked_of, places_in
 from gz_course.grader.feedback.rules import Room, findings
 
 MOST = 3  # places reported at most
@@ -36,6 +36,11 @@ def slip(function: Slip) -> Slip:
     """Register a mistake that is certain by the text of a file."""
     ROOM.add(function, function)
     return function
+
+
+def slip_of(*kinds: type[ast.AST], first: bool = False) -> Callable[[Callable[..., Words]], Slip]:
+    """Register a mistake that is looked for in nodes of these classes, as `asked_of` says."""
+    return lambda rule: slip(asked_of(rule, *kinds, first=first))
 
 
 def slip_of_run(function: SlipOfRun) -> SlipOfRun:

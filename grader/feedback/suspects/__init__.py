@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator
+from functools import wraps
 
-from gz_course.grader.feedback.facts.syntax import Places, places_in
+from gz_course.grader.feedback.facts.syntax import Places, Words, asked_of, places_in
 from gz_course.grader.feedback.rules import Room, findings
-from gz_course.grader.feedback.suspects.about import Suspect
+from gz_course.grader.feedback.suspects.about import About, Suspect
 
 MOST = 20  # suspects kept
 Suspicion = Callable[[ast.Module], Iterator[Suspect]]
@@ -23,6 +24,23 @@ def suspicion(function: Suspicion) -> Suspicion:
     """Register places that are named only with a symptom."""
     ROOM.add(function, function)
     return function
+
+
+def suspicion_of(
+    about: About, *kinds: type[ast.AST], first: bool = False
+) -> Callable[[Callable[..., Words]], Suspicion]:
+    """Register places that are about one thing, and are named only with a symptom, as `asked_of` says."""
+
+    def register(rule: Callable[..., Words]) -> Suspicion:
+        found = asked_of(rule, *kinds, first=first)
+
+        @wraps(rule)
+        def find(tree: ast.Module) -> Iterator[Suspect]:
+            return ((line, about, words) for line, words in found(tree))
+
+        return suspicion(find)
+
+    return register
 
 
 def suspects(content: bytes) -> Places:

@@ -12,7 +12,7 @@ import pytest
 from gz_course.grader.feedback import errors, launch_files, slips, suspects
 from gz_course.grader.feedback.errors.launch_errors import launch_meaning
 from gz_course.grader.feedback.errors.python_errors import meaning
-from gz_course.grader.feedback.facts.syntax import DEEPEST, Place, places_in
+from gz_course.grader.feedback.facts.syntax import DEEPEST, Place, Words, places_in
 from gz_course.grader.feedback.launch_files import launch_places
 from gz_course.grader.feedback.predictions import answers, commands, tables
 from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass
@@ -172,7 +172,7 @@ def public_rules(package: ModuleType, finding: object) -> Iterator[tuple[str, Ca
             own = inspect.isfunction(function) and function.__module__ == module.__name__
             if own and not name.startswith("_"):
                 names = vars(module) | {"ast": ast}
-                if get_type_hints(function, names).get("return") == Iterator[finding]:
+                if get_type_hints(function, names).get("return") in (Iterator[finding], Words):
                     yield f"{module.__name__}.{name}", function
 
 

@@ -6,7 +6,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gz_course.grader.feedback.predictions.answers import LAST, LENGTHS, MEAN, MINIMUM, Asked, nearest_ray, predicts
+from gz_course.grader.feedback.predictions.answers import (
+    LAST,
+    LENGTHS,
+    MEAN,
+    MINIMUM,
+    Asked,
+    nearest_ray,
+    predict,
+)
 
 
 def _along(
@@ -38,45 +46,41 @@ def _of_nearest(asked: Asked, function: Callable[[np.ndarray], np.ndarray]) -> n
     return scans.each(of)
 
 
-@predicts("x of the nearest point, range * cos(angle), not its range", only=(MINIMUM,))
-def x_of_the_nearest(asked: Asked) -> np.ndarray:
-    return _of_nearest(asked, np.cos)
-
-
-@predicts("y of the nearest point, range * sin(angle), not its range", only=(MINIMUM,))
-def y_of_the_nearest(asked: Asked) -> np.ndarray:
-    return _of_nearest(asked, np.sin)
-
-
-@predicts("the smallest x of all points, range * cos(angle), not the smallest range", only=(MINIMUM,))
-def smallest_x(asked: Asked) -> np.ndarray:
-    return _along(asked, np.cos, np.min)
-
-
-@predicts(
-    "the smallest distance in x of all points, range * |cos(angle)|, not the smallest range", only=(MINIMUM,), rank=LAST
+predict(
+    "x of the nearest point, range * cos(angle), not its range", lambda asked: _of_nearest(asked, np.cos), (MINIMUM,)
 )
-def smallest_distance_in_x(asked: Asked) -> np.ndarray:
-    return _along(asked, lambda angle: np.abs(np.cos(angle)), np.min)
-
-
-@predicts(
-    "the smallest distance in y of all points, range * |sin(angle)|, not the smallest range", only=(MINIMUM,), rank=LAST
+predict(
+    "y of the nearest point, range * sin(angle), not its range", lambda asked: _of_nearest(asked, np.sin), (MINIMUM,)
 )
-def smallest_distance_in_y(asked: Asked) -> np.ndarray:
-    return _along(asked, lambda angle: np.abs(np.sin(angle)), np.min)
-
-
-@predicts("the average x of all points, range * cos(angle), not the average range", only=(MEAN,))
-def average_x(asked: Asked) -> np.ndarray:
-    return _along(asked, np.cos, np.mean)
-
-
-@predicts("the average y of all points, range * sin(angle), not the average range", only=(MEAN,))
-def average_y(asked: Asked) -> np.ndarray:
-    return _along(asked, np.sin, np.mean)
-
-
-@predicts("the distance of the middle of all points, not the average of their ranges", only=LENGTHS)
-def distance_of_the_middle(asked: Asked) -> np.ndarray:
-    return np.hypot(_along(asked, np.cos, np.mean), _along(asked, np.sin, np.mean))
+predict(
+    "the smallest x of all points, range * cos(angle), not the smallest range",
+    lambda asked: _along(asked, np.cos, np.min),
+    (MINIMUM,),
+)
+predict(
+    "the smallest distance in x of all points, range * |cos(angle)|, not the smallest range",
+    lambda asked: _along(asked, lambda angle: np.abs(np.cos(angle)), np.min),
+    (MINIMUM,),
+    rank=LAST,
+)
+predict(
+    "the smallest distance in y of all points, range * |sin(angle)|, not the smallest range",
+    lambda asked: _along(asked, lambda angle: np.abs(np.sin(angle)), np.min),
+    (MINIMUM,),
+    rank=LAST,
+)
+predict(
+    "the average x of all points, range * cos(angle), not the average range",
+    lambda asked: _along(asked, np.cos, np.mean),
+    (MEAN,),
+)
+predict(
+    "the average y of all points, range * sin(angle), not the average range",
+    lambda asked: _along(asked, np.sin, np.mean),
+    (MEAN,),
+)
+predict(
+    "the distance of the middle of all points, not the average of their ranges",
+    lambda asked: np.hypot(_along(asked, np.cos, np.mean), _along(asked, np.sin, np.mean)),
+    LENGTHS,
+)

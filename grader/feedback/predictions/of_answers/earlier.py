@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from gz_course.grader.feedback.predictions.answers import LAST, NEARLY_ALL, Asked, Named, predicts
+from gz_course.grader.feedback.predictions.answers import LAST, NEARLY_ALL, Asked, Named, predict, predicts
 
 
 def _before(truth: np.ndarray, count: int) -> np.ndarray:
@@ -29,24 +29,22 @@ def long_before(asked: Asked) -> np.ndarray:
     return max(shifted, key=asked.met)
 
 
-@predicts("the smallest of all scans so far, not of this scan: begin again in every callback")
-def smallest_so_far(asked: Asked) -> np.ndarray:
-    return np.minimum.accumulate(asked.truth)
-
-
-@predicts("the smallest of all scans before this one: this scan is not among them")
-def smallest_before(asked: Asked) -> np.ndarray:
-    return _before(np.minimum.accumulate(asked.truth), 1)
-
-
-@predicts("the largest of all scans so far, not of this scan: begin again in every callback")
-def largest_so_far(asked: Asked) -> np.ndarray:
-    return np.maximum.accumulate(asked.truth)
-
-
-@predicts("the average of all scans so far, not of this scan alone")
-def average_so_far(asked: Asked) -> np.ndarray:
-    return np.cumsum(asked.truth) / np.arange(1, len(asked.truth) + 1)
+predict(
+    "the smallest of all scans so far, not of this scan: begin again in every callback",
+    lambda asked: np.minimum.accumulate(asked.truth),
+)
+predict(
+    "the smallest of all scans before this one: this scan is not among them",
+    lambda asked: _before(np.minimum.accumulate(asked.truth), 1),
+)
+predict(
+    "the largest of all scans so far, not of this scan: begin again in every callback",
+    lambda asked: np.maximum.accumulate(asked.truth),
+)
+predict(
+    "the average of all scans so far, not of this scan alone",
+    lambda asked: np.cumsum(asked.truth) / np.arange(1, len(asked.truth) + 1),
+)
 
 
 @predicts("the average of all valid ranges so far, not of those of this scan alone", only=("mean",))
@@ -57,9 +55,7 @@ def average_of_all_ranges(asked: Asked) -> np.ndarray:
     return np.cumsum([v.sum() for v in valid]) / np.cumsum([len(v) for v in valid])
 
 
-@predicts("the sum over all scans so far: begin again in every callback")
-def sum_so_far(asked: Asked) -> np.ndarray:
-    return np.cumsum(asked.truth)
+predict("the sum over all scans so far: begin again in every callback", lambda asked: np.cumsum(asked.truth))
 
 
 @predicts("the average of this scan and the one before")
@@ -99,9 +95,9 @@ def low_pass(asked: Asked) -> np.ndarray:
     return max(filtered, key=asked.met)
 
 
-@predicts("the change since the scan before, not the value of this scan")
-def change(asked: Asked) -> np.ndarray:
-    return asked.truth - _before(asked.truth, 1)
+predict(
+    "the change since the scan before, not the value of this scan", lambda asked: asked.truth - _before(asked.truth, 1)
+)
 
 
 @predicts("the answer before once more, not a new one", rank=LAST)
@@ -143,9 +139,7 @@ def other_statistic_of_the_past(asked: Asked) -> Named:
     return max(candidates, key=lambda each: asked.met(each.answers))
 
 
-@predicts("the time [s] of the scan")
-def time_of_the_scan(asked: Asked) -> np.ndarray:
-    return asked.times
+predict("the time [s] of the scan", lambda asked: asked.times)
 
 
 @predicts("always that of the first scan")
@@ -165,9 +159,7 @@ def constant(asked: Asked) -> np.ndarray:
     return np.full(len(asked.truth), values[0] if same and not known and not first else np.nan)
 
 
-@predicts("0 in every scan", rank=0)
-def zero(asked: Asked) -> np.ndarray:
-    return np.zeros(len(asked.truth))
+predict("0 in every scan", lambda asked: np.zeros(len(asked.truth)), rank=0)
 
 
 @predicts("numbers that count up by one: a counter of the scans", rank=2)

@@ -17,6 +17,7 @@ from gz_course.grader.feedback.predictions.answers import (
     Asked,
     Named,
     nearest_ray,
+    predict,
     predicts,
 )
 
@@ -107,9 +108,13 @@ def one_ray(asked: Asked) -> Named:
     return Named(f"the range of ray {ray}, whichever is the one asked for", table[:, ray])
 
 
-@predicts("the range opposite the nearest", only=(MINIMUM,))
-def opposite(asked: Asked) -> np.ndarray:
-    return asked.each(lambda row, low, high: float(row[(nearest_ray(row, low, high) + len(row) // 2) % len(row)]))
+predict(
+    "the range opposite the nearest",
+    lambda asked: asked.each(
+        lambda row, low, high: float(row[(nearest_ray(row, low, high) + len(row) // 2) % len(row)])
+    ),
+    (MINIMUM,),
+)
 
 
 @predicts("those of the rays within another bound", rank=LAST)

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from gz_course.grader.feedback.predictions.answers import LAST, LENGTHS, MEAN, MINIMUM, Asked, Named, predicts
+from gz_course.grader.feedback.predictions.answers import LAST, LENGTHS, MEAN, MINIMUM, Asked, Named, predict, predicts
 
 KEPT = (0.5, 0.9, 0.8, 0.7, 0.95)  # shares of the old value
 
@@ -52,11 +52,12 @@ def _filtered(valid: np.ndarray, keep: float, start: float | None) -> float:
     return float(value)
 
 
-@predicts(
-    "the average of the different values among the valid ranges: a set holds each value once", only=(MEAN,), rank=2
+predict(
+    "the average of the different values among the valid ranges: a set holds each value once",
+    lambda asked: max((asked.of_valid(partial(_distinct, digits=digits)) for digits in (1, 2, 0)), key=asked.met),
+    (MEAN,),
+    rank=2,
 )
-def of_a_set(asked: Asked) -> np.ndarray:
-    return max((asked.of_valid(partial(_distinct, digits=digits)) for digits in (1, 2, 0)), key=asked.met)
 
 
 def _distinct(valid: np.ndarray, digits: int) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gz_course.grader.feedback.predictions.answers import COUNT, LAST, LENGTHS, MEAN, Asked, Named, predicts
+from gz_course.grader.feedback.predictions.answers import COUNT, LAST, LENGTHS, MEAN, Asked, Named, predict, predicts
 
 Choice = Callable[[np.ndarray, float, float], np.ndarray]
 
@@ -15,9 +15,10 @@ def _valid(row: np.ndarray, low: float, high: float) -> np.ndarray:
     return row[(row > low) & (row < high)]
 
 
-@predicts("those of all rays, the invalid ones (inf, -inf, nan) included")
-def all_rays(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: row)
+predict(
+    "those of all rays, the invalid ones (inf, -inf, nan) included",
+    lambda asked: asked.over(lambda row, low, high: row),
+)
 
 
 @predicts("those of all rays but nan: inf and -inf are included")
@@ -27,14 +28,14 @@ def all_but_nan(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: row[~np.isnan(row)])
 
 
-@predicts("those of the rays above range_min: range_max was not asked about, so inf is included")
-def no_upper_bound(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: row[row > low])
-
-
-@predicts("those of the rays below range_max: range_min was not asked about, so -inf is included")
-def no_lower_bound(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: row[row < high])
+predict(
+    "those of the rays above range_min: range_max was not asked about, so inf is included",
+    lambda asked: asked.over(lambda row, low, high: row[row > low]),
+)
+predict(
+    "those of the rays below range_max: range_min was not asked about, so -inf is included",
+    lambda asked: asked.over(lambda row, low, high: row[row < high]),
+)
 
 
 @predicts("those of the rays whose range lies between angle_min and angle_max: these are bounds of the angles [rad]")
@@ -45,28 +46,28 @@ def bounds_of_the_angles(asked: Asked) -> np.ndarray:
     return asked.over(lambda row, low, high: row[(row >= least) & (row <= most)])
 
 
-@predicts("those of the invalid rays: the condition is the wrong way round")
-def invalid_rays(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: row[~((row > low) & (row < high))])
-
-
-@predicts("those with inf counted as range_max", only=LENGTHS)
-def inf_is_range_max(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: np.where(np.isposinf(row), high, row)[~np.isneginf(row)])
-
-
-@predicts(
+predict(
+    "those of the invalid rays: the condition is the wrong way round",
+    lambda asked: asked.over(lambda row, low, high: row[~((row > low) & (row < high))]),
+)
+predict(
+    "those with inf counted as range_max",
+    lambda asked: asked.over(lambda row, low, high: np.where(np.isposinf(row), high, row)[~np.isneginf(row)]),
+    LENGTHS,
+)
+predict(
     "those with every range clipped to range_min and range_max: inf became range_max, -inf range_min",
-    only=LENGTHS,
+    lambda asked: asked.over(
+        lambda row, low, high: np.clip(np.nan_to_num(row, nan=high, posinf=high, neginf=low), low, high)
+    ),
+    LENGTHS,
     rank=2,
 )
-def clipped(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: np.clip(np.nan_to_num(row, nan=high, posinf=high, neginf=low), low, high))
-
-
-@predicts("those with inf replaced by a huge number, as nan_to_num() does", only=LENGTHS)
-def huge_for_inf(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: np.nan_to_num(row))
+predict(
+    "those with inf replaced by a huge number, as nan_to_num() does",
+    lambda asked: asked.over(lambda row, low, high: np.nan_to_num(row)),
+    LENGTHS,
+)
 
 
 @predicts("those of the rays below a bound", rank=LAST)
@@ -88,51 +89,47 @@ def _below(limit: float) -> Choice:
     return lambda row, low, high: row[row < limit]
 
 
-@predicts("those with 0 in place of the ranges that are not valid", only=LENGTHS)
-def zero_for_invalid(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: np.where((row > low) & (row < high), row, 0.0))
-
-
-@predicts("those of the first half of the rays only")
-def first_half(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: _valid(row[: len(row) // 2], low, high))
-
-
-@predicts("those of the second half of the rays only")
-def second_half(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: _valid(row[len(row) // 2 :], low, high))
-
-
-@predicts("those of every second ray only")
-def every_second_ray(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: _valid(row[::2], low, high))
-
-
-@predicts("those of all rays but the first: indices begin at 0", only=(MEAN,))
-def without_the_first_ray(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: _valid(row[1:], low, high))
-
-
-@predicts("those of all rays but the last: range(n) ends before n", only=(MEAN,))
-def without_the_last_ray(asked: Asked) -> np.ndarray:
-    return asked.over(lambda row, low, high: _valid(row[:-1], low, high))
-
-
-@predicts("the average of a sum that begins with the first valid range and adds it again", only=(MEAN,))
-def first_counted_twice(asked: Asked) -> np.ndarray:
-    return asked.of_valid(lambda valid: (valid.sum() + valid[0]) / len(valid))
-
-
-@predicts("one less than the number of all rays: the rays were not looked at", only=(COUNT,))
-def steps_between_rays(asked: Asked) -> np.ndarray:
-    return asked.of_rows(lambda row: len(row) - 1)
-
-
-@predicts("the number of groups of valid rays side by side, not of the rays", only=(COUNT,))
-def groups(asked: Asked) -> np.ndarray:
-    return asked.each(
+predict(
+    "those with 0 in place of the ranges that are not valid",
+    lambda asked: asked.over(lambda row, low, high: np.where((row > low) & (row < high), row, 0.0)),
+    LENGTHS,
+)
+predict(
+    "those of the first half of the rays only",
+    lambda asked: asked.over(lambda row, low, high: _valid(row[: len(row) // 2], low, high)),
+)
+predict(
+    "those of the second half of the rays only",
+    lambda asked: asked.over(lambda row, low, high: _valid(row[len(row) // 2 :], low, high)),
+)
+predict("those of every second ray only", lambda asked: asked.over(lambda row, low, high: _valid(row[::2], low, high)))
+predict(
+    "those of all rays but the first: indices begin at 0",
+    lambda asked: asked.over(lambda row, low, high: _valid(row[1:], low, high)),
+    (MEAN,),
+)
+predict(
+    "those of all rays but the last: range(n) ends before n",
+    lambda asked: asked.over(lambda row, low, high: _valid(row[:-1], low, high)),
+    (MEAN,),
+)
+predict(
+    "the average of a sum that begins with the first valid range and adds it again",
+    lambda asked: asked.of_valid(lambda valid: (valid.sum() + valid[0]) / len(valid)),
+    (MEAN,),
+)
+predict(
+    "one less than the number of all rays: the rays were not looked at",
+    lambda asked: asked.of_rows(lambda row: len(row) - 1),
+    (COUNT,),
+)
+predict(
+    "the number of groups of valid rays side by side, not of the rays",
+    lambda asked: asked.each(
         lambda row, low, high: float(np.sum(np.diff(((row > low) & (row < high)).astype(int), prepend=0) == 1))
-    )
+    ),
+    (COUNT,),
+)
 
 
 @predicts("those of the rays ahead only, not of those all around", rank=2)
@@ -173,9 +170,11 @@ def _slice(begin: int, end: int) -> Choice:
     return lambda row, low, high: _valid(row[len(row) * begin // 8 : len(row) * end // 8], low, high)
 
 
-@predicts("the sum of the valid ranges divided by the number of all rays, not of the valid ones", only=(MEAN,))
-def divided_by_all_rays(asked: Asked) -> np.ndarray:
-    return asked.of_valid(np.sum) / asked.of_rows(len)
+predict(
+    "the sum of the valid ranges divided by the number of all rays, not of the valid ones",
+    lambda asked: asked.of_valid(np.sum) / asked.of_rows(len),
+    (MEAN,),
+)
 
 
 @predicts(

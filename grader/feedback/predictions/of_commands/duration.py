@@ -91,9 +91,8 @@ def coarse_timer(drive: Drive) -> str:
     if not drive.seconds < duration <= drive.seconds + 1.05 * drive.period:
         return ""
     return (
-        f"the commands come {drive.period:.2f} s apart, so the stop waits for the first one after {drive.seconds:g} "
-        f"s and "
-        f"comes {duration:.2f} s after the start: a timer of 0.1 s looks often enough"
+        f"the commands come {drive.period:.2f} s apart, so the stop waits for the first one after {drive.seconds:g} s "
+        f"and comes {duration:.2f} s after the start: a timer of 0.1 s looks often enough"
     )
 
 

@@ -39,9 +39,8 @@ def in_separate_messages(drive: Drive) -> str:
     if len(busy) < 6 or np.count_nonzero(busy[1:] != busy[:-1]) < 0.6 * (len(busy) - 1):
         return ""
     return (
-        "every other command has linear.x only, and those between have angular.z only: each Twist takes the place "
-        "of the "
-        "one before, so both values belong in the same one"
+        "every other command has linear.x only, and those between have angular.z only: each Twist takes the place of "
+        "the one before, so both values belong in the same one"
     )
 
 
@@ -96,8 +95,7 @@ def slower_instead_of_a_stop(drive: Drive) -> str:
         return ""
     return (
         f"from {drive.times[changed]:.2f} s on linear.x is {last:.2g} m/s, which is slower and no stop: the robot "
-        f"stands "
-        "only if it is 0"
+        "stands only if it is 0"
     )
 
 

@@ -39,9 +39,8 @@ def grows(drive: Drive) -> str:
     if max(np.mean(steps > 1e-4), np.mean(steps < -1e-4)) < 0.7:
         return ""
     return (
-        f"angular.z goes from {values[0]:.2f} to {values[-1]:.2f} rad/s in the drive: it is a rate, not an angle or "
-        f"a sum, "
-        "and stays the same for a steady turn"
+        f"angular.z goes from {values[0]:.2f} to {values[-1]:.2f} rad/s in the drive: it is a rate, not an angle or a "
+        "sum, and stays the same for a steady turn"
     )
 
 
@@ -155,8 +154,7 @@ def no_turn(drive: Drive) -> str:
     if len(sideways):
         return (
             f"linear.y was {np.median(sideways):.2f} and angular.z 0: linear.y is a speed sideways, which wheels "
-            f"ignore; "
-            "the turn is angular.z"
+            "ignore; the turn is angular.z"
         )
     if np.abs(drive.linear[:, 1:]).any():
         return ""

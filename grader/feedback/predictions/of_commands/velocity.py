@@ -31,9 +31,8 @@ def world_axes(drive: Drive) -> str:
     if len(x) < 6 or np.abs(y).max() < 0.05 or np.ptp(np.hypot(x, y)) > 0.02 * np.hypot(x, y).max() or np.ptp(y) < 0.03:
         return ""
     return (
-        f"linear.x and linear.y are the parts of {np.hypot(x, y)[0]:.2f} m/s along the axes of the world (v cos, v "
-        f"sin of "
-        "the heading): a Twist is given in the robot's own frame, where forward is always linear.x"
+        f"linear.x and linear.y are the parts of {np.hypot(x, y)[0]:.2f} m/s along the axes of the world (v cos, v sin "
+        "of the heading): a Twist is given in the robot's own frame, where forward is always linear.x"
     )
 
 

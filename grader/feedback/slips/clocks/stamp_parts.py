@@ -7,27 +7,25 @@ import math
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 BEFORE = ("no_effect", "publishers")
 
 
-@slip
-def parts_of_a_second(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Compare)
+def parts_of_a_second(node: ast.Compare, tree: ast.AST) -> Words:
     """Find the nanoseconds within a second compared with a whole second or more, which they never reach."""
     numbers = named_numbers(tree)
-    for node in nodes_of(tree, ast.Compare):
-        if len(node.ops) != 1:
-            continue
-        limit = number(node.comparators[0], numbers)
-        within = last_name(node.left) == "nanosec" or unparse(node.left).endswith("seconds_nanoseconds()[1]")
-        if within and limit is not None and limit >= 1e9:
-            yield (
-                node.lineno,
-                f"{unparse(node)[:70]}: these are the nanoseconds within the current second, always less than "
-                "1e9: the whole time is sec + nanosec / 1e9, or Time.nanoseconds",
-            )
+    if len(node.ops) != 1:
+        return
+    limit = number(node.comparators[0], numbers)
+    within = last_name(node.left) == "nanosec" or unparse(node.left).endswith("seconds_nanoseconds()[1]")
+    if within and limit is not None and limit >= 1e9:
+        yield (
+            f"{unparse(node)[:70]}: these are the nanoseconds within the current second, always less than "
+            "1e9: the whole time is sec + nanosec / 1e9, or Time.nanoseconds"
+        )
 
 
 @slip

@@ -6,37 +6,36 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 TIME = re.compile(r"\bnow\b|clock|stamp|nanosec|time", re.IGNORECASE)  # in what makes a time
 LONG = 1.0  # [s] or more is no time between two calls
 
 
-@slip
-def set_anew(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def set_anew(function: ast.FunctionDef) -> Words:
     """Find `now - self.start` that is compared with seconds, where each call also sets `self.start = now`."""
-    for function in functions(tree):
-        always = {
-            unparse(statement.targets[0]): statement
-            for statement in function.body
-            if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Attribute)
-        }
-        since: dict[str, str] = {}  # name of a difference -> its start
-        for node in nodes_of(function, ast.Assign):
-            if start := _start(node.value, always):
-                since[unparse(node.targets[0])] = start
-        for asked in nodes_of(function, ast.Compare):
-            if not _is_long(asked.comparators[0]):
-                continue
-            start = _start(asked.left, always) or since.get(unparse(asked.left), "")
-            if start:
-                line = always[start].lineno
-                yield (
-                    line,
-                    f"{start} is set again in every call of {function.name}, so line {asked.lineno} compares the time "
-                    "since the last call: what is measured from the start is set once",
-                )
+    always = {
+        unparse(statement.targets[0]): statement
+        for statement in function.body
+        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Attribute)
+    }
+    since: dict[str, str] = {}  # name of a difference -> its start
+    for node in nodes_of(function, ast.Assign):
+        if start := _start(node.value, always):
+            since[unparse(node.targets[0])] = start
+    for asked in nodes_of(function, ast.Compare):
+        if not _is_long(asked.comparators[0]):
+            continue
+        start = _start(asked.left, always) or since.get(unparse(asked.left), "")
+        if start:
+            line = always[start].lineno
+            yield (
+                line,
+                f"{start} is set again in every call of {function.name}, so line {asked.lineno} compares the time "
+                "since the last call: what is measured from the start is set once",
+            )
 
 
 def _start(value: ast.expr, always: dict[str, ast.Assign]) -> str:

@@ -8,8 +8,8 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
@@ -22,17 +22,16 @@ def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
             yield node, name
 
 
-@slip
-def whole_parts_of_pi(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.BinOp)
+def whole_parts_of_pi(node: ast.BinOp) -> Words:
     """Find pi // 2, which is 1.0."""
-    for node in walk(tree):
-        match node:
-            case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
-                text = unparse(node)
-                if unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
-                    angle = -math.pi if text.startswith("-") else math.pi
-                    right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
-                    yield node.lineno, f"{text} is {angle // parts:g}, because // rounds down: {right}"
+    match node:
+        case ast.BinOp(op=ast.FloorDiv(), left=left, right=ast.Constant(value=int(parts))) if parts:
+            text = unparse(node)
+            if unparse(left).lstrip("-") in ("pi", "math.pi", "np.pi", "numpy.pi"):
+                angle = -math.pi if text.startswith("-") else math.pi
+                right = f"{text.replace('//', '/')} is {angle / parts:.2f}"
+                yield f"{text} is {angle // parts:g}, because // rounds down: {right}"
 
 
 @slip
@@ -88,21 +87,19 @@ def quotients_for_directions(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-@slip
-def quaternions_for_angles(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Assign)
+def quaternions_for_angles(node: ast.Assign) -> Words:
     """Find `yaw = orientation.z`: the z of a quaternion is the sine of half the angle."""
-    for node in nodes_of(tree, ast.Assign):
-        if not isinstance(node.value, ast.Attribute):
-            continue
-        target, value = unparse(node.targets[0]), unparse(node.value)
-        if re.search(r"(?:yaw|heading|theta|angle)$", target) and re.search(
-            r"(?:orientation|rotation|\bq|quat)\.z$", value
-        ):
-            yield (
-                node.lineno,
-                f"{value} is no angle: z of a quaternion is the sine of half of it; the heading of a robot on the "
-                "ground is 2 * math.atan2(q.z, q.w)",
-            )
+    if not isinstance(node.value, ast.Attribute):
+        return
+    target, value = unparse(node.targets[0]), unparse(node.value)
+    if re.search(r"(?:yaw|heading|theta|angle)$", target) and re.search(
+        r"(?:orientation|rotation|\bq|quat)\.z$", value
+    ):
+        yield (
+            f"{value} is no angle: z of a quaternion is the sine of half of it; the heading of a robot on the "
+            "ground is 2 * math.atan2(q.z, q.w)"
+        )
 
 
 @slip
@@ -135,25 +132,22 @@ def _of_a_frame(tree: ast.AST, value: ast.expr) -> bool:
     )
 
 
-@slip
-def exchanged_sines(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def exchanged_sines(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find the x of a ray that is made with its sine, with the y that is made with its cosine."""
-    for function in functions(tree):
-        bearings = {
-            unparse(target)
-            for target, value in assigned(function)
-            if {"angle_min", "angle_increment"} <= {getattr(each, "attr", "") for each in walk(value)}
-        }
-        found: dict[tuple[str, str], ast.expr] = {}
-        for target, value in assigned(function):
-            waves = {
-                name for call, name in _calls(value) if name in ("sin", "cos") and unparse(call.args[0]) in bearings
-            }
-            if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
-                found.setdefault((_axis(target), waves.pop()), value)
-        if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2 and _of_a_frame(tree, found["x", "sin"]):
-            yield (
-                found["x", "sin"].lineno,
-                f"x = {unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
-                "ahead, has its cosine, and y, to the left, its sine",
-            )
+    bearings = {
+        unparse(target)
+        for target, value in assigned(function)
+        if {"angle_min", "angle_increment"} <= {getattr(each, "attr", "") for each in walk(value)}
+    }
+    found: dict[tuple[str, str], ast.expr] = {}
+    for target, value in assigned(function):
+        waves = {name for call, name in _calls(value) if name in ("sin", "cos") and unparse(call.args[0]) in bearings}
+        if len(waves) == 1 and isinstance(target, ast.Name | ast.Attribute):
+            found.setdefault((_axis(target), waves.pop()), value)
+    if ("x", "sin") in found and ("y", "cos") in found and len(found) == 2 and _of_a_frame(tree, found["x", "sin"]):
+        yield (
+            found["x", "sin"],
+            f"x = {unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
+            "ahead, has its cosine, and y, to the left, its sine",
+        )

@@ -6,8 +6,16 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Words,
+    assigned,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+)
+from gz_course.grader.feedback.slips import slip, slip_of
 
 MAKES = "euler_from_quaternion"
 HEADING = re.compile(r"yaw|heading|theta|\bth\b")
@@ -44,12 +52,12 @@ def _said(name: str, place: int) -> str:
     )
 
 
-@slip
-def other_order(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Call)
+def other_order(call: ast.Call) -> Words:
     """Find `euler_from_quaternion([q.w, q.x, q.y, q.z])`: w is the last one."""
-    for call, name in calls(tree):
-        given = call.args[0] if call.args else None
-        if name == MAKES and isinstance(given, ast.List | ast.Tuple):
-            parts = "".join(last_name(each) for each in given.elts)
-            if sorted(parts) == sorted("xyzw") and parts != "xyzw":
-                yield call.lineno, f"{MAKES}() takes x, y, z, w in this order, and gets {', '.join(parts)}"
+    name = last_name(call.func)
+    given = call.args[0] if call.args else None
+    if name == MAKES and isinstance(given, ast.List | ast.Tuple):
+        parts = "".join(last_name(each) for each in given.elts)
+        if sorted(parts) == sorted("xyzw") and parts != "xyzw":
+            yield f"{MAKES}() takes x, y, z, w in this order, and gets {', '.join(parts)}"

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Words, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip_of
 
 COPIES = frozenset({"list", "array", "asarray", "tuple"})
 MASKS = frozenset({"isfinite", "isnan", "isinf", "logical_and", "logical_or", "logical_not"})
@@ -16,24 +15,21 @@ ADVICE = (
 )
 
 
-@slip
-def numbered_after_filtering(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef, first=True)
+def numbered_after_filtering(function: ast.FunctionDef) -> Words:
     """Find `angle_increment * np.arange(len(good))`, where `good` holds only some of the ranges, and the like."""
-    for function in functions(tree):
-        kinds = _Kinds(function)
-        for node in walk(function):
-            match node:
-                case ast.BinOp(op=ast.Mult(), left=left, right=right):
-                    for one, other in ((left, right), (right, left)):
-                        name = kinds.numbered(one) if "increment" in unparse(other) else ""
-                        if name:
-                            yield node.lineno, _words(one, name, kinds.left_out(name, node.lineno))
-                            return
-                case ast.Call(args=[first, last, number, *_]) if last_name(node.func) == "linspace":
-                    ends = unparse(first) + unparse(last)
-                    if "angle_min" in ends and "angle_max" in ends and (name := kinds.length_of(number)):
-                        yield node.lineno, _words(node, name, kinds.left_out(name, node.lineno))
-                        return
+    kinds = _Kinds(function)
+    for node in walk(function):
+        match node:
+            case ast.BinOp(op=ast.Mult(), left=left, right=right):
+                for one, other in ((left, right), (right, left)):
+                    name = kinds.numbered(one) if "increment" in unparse(other) else ""
+                    if name:
+                        yield node, _words(one, name, kinds.left_out(name, node.lineno))
+            case ast.Call(args=[first, last, number, *_]) if last_name(node.func) == "linspace":
+                ends = unparse(first) + unparse(last)
+                if "angle_min" in ends and "angle_max" in ends and (name := kinds.length_of(number)):
+                    yield node, _words(node, name, kinds.left_out(name, node.lineno))
 
 
 def _words(node: ast.expr, name: str, line: int) -> str:
@@ -136,30 +132,27 @@ class _Kinds:
         return unparse(of) if self._kind(of, node.lineno) == "filtered" else ""
 
 
-@slip
-def left_out_before_the_next_angle(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.For, first=True)
+def left_out_before_the_next_angle(loop: ast.For) -> Words:
     """Find `angle += scan.angle_increment` behind a `continue` of its loop, or below an `if` that looks at the ray."""
-    for loop in nodes_of(tree, ast.For):
-        if not any(each in unparse(loop.iter) for each in ("ranges", "zip(", "enumerate(", "range(")):
-            continue
-        left: ast.If | None = None
-        for statement in loop.body:
-            steps = [each for each in walk(statement) if _steps(each)]
-            above = statement if isinstance(statement, ast.If) and not _steps(statement) else None
-            if steps and (left is not None or (above is not None and len(steps) < 2 and not above.orelse)):
-                test = left if left is not None else above
-                assert test is not None and isinstance(steps[0], ast.AugAssign)
-                yield (
-                    steps[0].lineno,
-                    f"{unparse(steps[0])} is not reached for a ray that line {test.lineno} leaves out, so all rays "
-                    "behind it get the angle of another one: the angle grows with each ray, also with those that are "
-                    "left out",
-                )
-                return
-            if steps:
-                break
-            if isinstance(statement, ast.If) and any(isinstance(each, ast.Continue) for each in statement.body):
-                left = left or statement
+    if not any(each in unparse(loop.iter) for each in ("ranges", "zip(", "enumerate(", "range(")):
+        return
+    left: ast.If | None = None
+    for statement in loop.body:
+        steps = [each for each in walk(statement) if _steps(each)]
+        above = statement if isinstance(statement, ast.If) and not _steps(statement) else None
+        if steps and (left is not None or (above is not None and len(steps) < 2 and not above.orelse)):
+            test = left if left is not None else above
+            assert test is not None and isinstance(steps[0], ast.AugAssign)
+            yield (
+                steps[0],
+                f"{unparse(steps[0])} is not reached for a ray that line {test.lineno} leaves out, so all rays behind "
+                "it get the angle of another one: the angle grows with each ray, also with those that are left out",
+            )
+        if steps:
+            break
+        if isinstance(statement, ast.If) and any(isinstance(each, ast.Continue) for each in statement.body):
+            left = left or statement
 
 
 def _steps(node: ast.AST) -> bool:

@@ -60,9 +60,8 @@ def no_rotation(tree: ast.AST) -> Iterator[Place]:
             one, two = row
             yield (
                 second.lineno,
-                f"{unparse(first)[:50]} and {unparse(second)[:50]} do not turn a point: it is "
-                f"{one} * cos - {two} * sin for x and {one} * sin + {two} * cos for y, if {one} is ahead and {two} "
-                "to the left",
+                f"{unparse(first)[:50]} and {unparse(second)[:50]} do not turn a point: it is {one} * cos - {two} * "
+                f"sin for x and {one} * sin + {two} * cos for y, if {one} is ahead and {two} to the left",
             )
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Words, assigned, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip_of
 
 FINDS = frozenset({"index", "argmin", "nanargmin"})
 ELEMENTWISE = frozenset({"hypot", "abs", "sqrt", "fabs"})
@@ -19,25 +19,23 @@ DONE = {
 }
 
 
-@slip
-def places_for_rays(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef, first=True)
+def places_for_rays(function: ast.FunctionDef) -> Words:
     """Find `enumerate(sorted(ranges))` whose index is multiplied by angle_increment, and the like."""
-    for function in functions(tree):
-        found = dict(_places(function, dict(_changed_lists(function))))
-        stored = [node.id for node in nodes_of(function, ast.Name) if _is_store(node)]
-        for node in nodes_of(function, ast.BinOp):
-            if not isinstance(node.op, ast.Mult):
-                continue
-            sides = unparse(node.left), unparse(node.right)
-            for one, other in (sides, sides[::-1]):
-                if one in found and "increment" in other and stored.count(one) == 1:
-                    line, what, how = found[one]
-                    yield (
-                        line,
-                        f"{one} is a place in {how} ranges ({what[:50]}): {DONE[how]}, so {one} is not the number of a "
-                        "ray; keep pairs (range, number of the ray), or look for the index in scan.ranges itself",
-                    )
-                    return
+    found = dict(_places(function, dict(_changed_lists(function))))
+    stored = [node.id for node in nodes_of(function, ast.Name) if _is_store(node)]
+    for node in nodes_of(function, ast.BinOp):
+        if not isinstance(node.op, ast.Mult):
+            continue
+        sides = unparse(node.left), unparse(node.right)
+        for one, other in (sides, sides[::-1]):
+            if one in found and "increment" in other and stored.count(one) == 1:
+                line, what, how = found[one]
+                yield (
+                    line,
+                    f"{one} is a place in {how} ranges ({what[:50]}): {DONE[how]}, so {one} is not the number of a "
+                    "ray; keep pairs (range, number of the ray), or look for the index in scan.ranges itself",
+                )
 
 
 def _is_store(node: ast.Name) -> bool:
@@ -115,41 +113,38 @@ def _places(function: ast.FunctionDef, names: dict[str, str]) -> Iterator[tuple[
                     yield unparse(target), (node.lineno, unparse(call), how)
 
 
-@slip
-def places_in_masked(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef, first=True)
+def places_in_masked(function: ast.FunctionDef) -> Words:
     """Find `angles[np.argmin(ranges[valid])]`: the place counts in what is left, and angles has all rays."""
-    for function in functions(tree):
-        masked: dict[str, str] = {}
-        found: dict[str, tuple[str, str]] = {}
-        for node in walk(function):
-            for target, value in assigned(node) if isinstance(node, ast.Assign) else ():
-                name = unparse(target)
-                if mask := _mask(value, masked):
-                    masked[name] = mask
-                if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
-                    found[name] = (unparse(value), mask)
-        for name, line in _times_increment(function):
-            if name in found:
-                what, mask = found[name]
-                yield (
-                    line,
-                    f"{name} is a place among those that {mask[:30]} has left ({what[:50]}), not the number of a ray: "
-                    "compute the angles of all rays, and leave the same ones out of both",
-                )
-                return
-        for node in nodes_of(function, ast.Subscript):
-            of, place = unparse(node.value), node.slice
-            what, mask = found.get(unparse(place), ("", ""))
-            if isinstance(place, ast.Call) and _finds(place):
-                what, mask = unparse(place), _mask(place.args[0], masked)
-            whole = isinstance(node.value, ast.Name) or of.endswith(".ranges")
-            if mask and whole and of not in masked and isinstance(node.ctx, ast.Load):
-                yield (
-                    node.lineno,
-                    f"{unparse(node)[:60]}: {what[:50]} is a place among those that {mask[:30]} has left, and {of} "
-                    f"has all rays, so it is another ray; use {of}[{mask[:30]}]",
-                )
-                return
+    masked: dict[str, str] = {}
+    found: dict[str, tuple[str, str]] = {}
+    for node in walk(function):
+        for target, value in assigned(node) if isinstance(node, ast.Assign) else ():
+            name = unparse(target)
+            if mask := _mask(value, masked):
+                masked[name] = mask
+            if isinstance(value, ast.Call) and _finds(value) and (mask := _mask(value.args[0], masked)):
+                found[name] = (unparse(value), mask)
+    for name, line in _times_increment(function):
+        if name in found:
+            what, mask = found[name]
+            yield (
+                line,
+                f"{name} is a place among those that {mask[:30]} has left ({what[:50]}), not the number of a ray: "
+                "compute the angles of all rays, and leave the same ones out of both",
+            )
+    for node in nodes_of(function, ast.Subscript):
+        of, place = unparse(node.value), node.slice
+        what, mask = found.get(unparse(place), ("", ""))
+        if isinstance(place, ast.Call) and _finds(place):
+            what, mask = unparse(place), _mask(place.args[0], masked)
+        whole = isinstance(node.value, ast.Name) or of.endswith(".ranges")
+        if mask and whole and of not in masked and isinstance(node.ctx, ast.Load):
+            yield (
+                node,
+                f"{unparse(node)[:60]}: {what[:50]} is a place among those that {mask[:30]} has left, and {of} "
+                f"has all rays, so it is another ray; use {of}[{mask[:30]}]",
+            )
 
 
 def _times_increment(function: ast.FunctionDef) -> Iterator[tuple[str, int]]:

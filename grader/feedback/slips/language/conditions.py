@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, is_none, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, is_none, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
@@ -41,22 +41,21 @@ def of_two_bounds(tree: ast.AST) -> Iterator[Place]:
             yield node.lineno, f"{code} never holds: no {name} is above the larger bound and below the smaller one"
 
 
-@slip
-def the_same_bound(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Compare, ast.BoolOp)
+def the_same_bound(node: ast.Compare | ast.BoolOp) -> Words:
     """Find `low <= x <= low`, which only one value meets, or none."""
-    for node in walk(tree):
-        match node:
-            case ast.Compare(left=low, ops=[one, other], comparators=[_, high]) if type(one) in MIRRORED:
-                same = (type(one) in ABOVE) == (type(other) in ABOVE) and unparse(low) == unparse(high)
-            case ast.BoolOp(op=ast.And(), values=[one, other]):
-                bounds = [bound for each in (one, other) if (bound := _bound(each))]
-                texts = [(bound[0], unparse(bound[2])) for bound in bounds]
-                same = len(texts) == 2 and texts[0] == texts[1] and bounds[0][1] != bounds[1][1]
-            case _:
-                continue
-        if same:
-            code = unparse(node)[:70]
-            yield node.lineno, f"{code} has the same bound twice, so no other value than that is between: one is wrong"
+    match node:
+        case ast.Compare(left=low, ops=[one, other], comparators=[_, high]) if type(one) in MIRRORED:
+            same = (type(one) in ABOVE) == (type(other) in ABOVE) and unparse(low) == unparse(high)
+        case ast.BoolOp(op=ast.And(), values=[one, other]):
+            bounds = [bound for each in (one, other) if (bound := _bound(each))]
+            texts = [(bound[0], unparse(bound[2])) for bound in bounds]
+            same = len(texts) == 2 and texts[0] == texts[1] and bounds[0][1] != bounds[1][1]
+        case _:
+            return
+    if same:
+        code = unparse(node)[:70]
+        yield f"{code} has the same bound twice, so no other value than that is between: one is wrong"
 
 
 def _bound(node: ast.expr) -> tuple[str, bool, ast.expr] | None:
@@ -149,74 +148,70 @@ def none_again(tree: ast.AST) -> Iterator[Place]:
                     none[made] = statement.lineno
 
 
-@slip
-def implied(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.If)
+def implied(node: ast.If, tree: ast.AST) -> Words:
     """Find `elif x >= 5:` below `if x >= 0:`, which leaves nothing for it."""
     numbers = named_numbers(tree)
-    for node in nodes_of(tree, ast.If):
-        if len(node.orelse) != 1 or not isinstance(node.orelse[0], ast.If):
-            continue
-        other = node.orelse[0]
-        one, two = _bound(node.test), _bound(other.test)
-        if one is None or two is None or one[:2] != two[:2]:
-            continue
-        wide, narrow = number(one[2], numbers), number(two[2], numbers)
-        if wide is None or narrow is None or wide == narrow:
-            continue
-        if (wide < narrow) == one[1]:
-            yield (
-                other.lineno,
-                f"elif {unparse(other.test)[:60]}: is never reached: where it holds, {unparse(node.test)[:60]} "
-                "holds, too, and the first condition that holds is taken; ask for the narrower one first",
-            )
+    if len(node.orelse) != 1 or not isinstance(node.orelse[0], ast.If):
+        return
+    other = node.orelse[0]
+    one, two = _bound(node.test), _bound(other.test)
+    if one is None or two is None or one[:2] != two[:2]:
+        return
+    wide, narrow = number(one[2], numbers), number(two[2], numbers)
+    if wide is None or narrow is None or wide == narrow:
+        return
+    if (wide < narrow) == one[1]:
+        yield (
+            other,
+            f"elif {unparse(other.test)[:60]}: is never reached: where it holds, {unparse(node.test)[:60]} "
+            "holds, too, and the first condition that holds is taken; ask for the narrower one first",
+        )
 
 
-@slip
-def deadline_of_now(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef, first=True)
+def deadline_of_now(function: ast.FunctionDef) -> Words:
     """Find `deadline = now + Duration(seconds=5)` and then `now < deadline` in one call."""
-    for function in functions(tree):
-        ends: dict[str, tuple[int, str]] = {}
-        for statement in function.body:
-            match statement:
-                case ast.Assign(targets=[target], value=ast.BinOp(left=begin, op=ast.Add())):
-                    ends[unparse(target)] = statement.lineno, unparse(begin)
-                    continue
-            for node in nodes_of(statement, ast.Compare):
-                if len(node.ops) != 1 or type(node.ops[0]) not in MIRRORED:
-                    continue
-                sides = [unparse(node.left), unparse(node.comparators[0])]
-                for one, other in (sides, sides[::-1]):
-                    if one in ends and ends[one][1] == other and "now" in other:
-                        yield (
-                            ends[one][0],
-                            f"{one} is computed again from {other} in every call, so it is always ahead, and line "
-                            f"{node.lineno} always gives the same: set it once, in the first call",
-                        )
-                        return
+    ends: dict[str, tuple[int, str]] = {}
+    for statement in function.body:
+        match statement:
+            case ast.Assign(targets=[target], value=ast.BinOp(left=begin, op=ast.Add())):
+                ends[unparse(target)] = statement.lineno, unparse(begin)
+                continue
+        for node in nodes_of(statement, ast.Compare):
+            if len(node.ops) != 1 or type(node.ops[0]) not in MIRRORED:
+                continue
+            sides = [unparse(node.left), unparse(node.comparators[0])]
+            for one, other in (sides, sides[::-1]):
+                if one in ends and ends[one][1] == other and "now" in other:
+                    yield (
+                        ends[one][0],
+                        f"{one} is computed again from {other} in every call, so it is always ahead, and line "
+                        f"{node.lineno} always gives the same: set it once, in the first call",
+                    )
 
 
-@slip
-def flag_of_its_own_block(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.ClassDef)
+def flag_of_its_own_block(owner: ast.ClassDef) -> Words:
     """Find `if late and not self.moving:` where self.moving begins as True and only that block changes it."""
-    for owner in nodes_of(tree, ast.ClassDef):
-        changes: dict[str, list[tuple[ast.expr, ast.expr]]] = {}
-        for target, value in assigned(owner):
-            changes.setdefault(unparse(target), []).append((target, value))
-        for node in nodes_of(owner, ast.If):
-            if not isinstance(node.test, ast.BoolOp):
-                continue
-            if not isinstance(node.test.op, ast.And):
-                continue
-            inside = {id(each) for statement in node.body for each in walk(statement)}
-            for part in node.test.values:
-                negated = isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not)
-                name = unparse(part.operand if isinstance(part, ast.UnaryOp) else part)
-                others = [value for target, value in changes.get(name, []) if id(target) not in inside]
-                if len(others) == 1 and len(changes[name]) > 1 and isinstance(others[0], ast.Constant):
-                    first = others[0].value
-                    if isinstance(first, bool) and first == negated:
-                        yield (
-                            node.lineno,
-                            f"the code below this condition never runs: {name} is {first} from the start, and only "
-                            "these lines change it",
-                        )
+    changes: dict[str, list[tuple[ast.expr, ast.expr]]] = {}
+    for target, value in assigned(owner):
+        changes.setdefault(unparse(target), []).append((target, value))
+    for node in nodes_of(owner, ast.If):
+        if not isinstance(node.test, ast.BoolOp):
+            continue
+        if not isinstance(node.test.op, ast.And):
+            continue
+        inside = {id(each) for statement in node.body for each in walk(statement)}
+        for part in node.test.values:
+            negated = isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.Not)
+            name = unparse(part.operand if isinstance(part, ast.UnaryOp) else part)
+            others = [value for target, value in changes.get(name, []) if id(target) not in inside]
+            if len(others) == 1 and len(changes[name]) > 1 and isinstance(others[0], ast.Constant):
+                first = others[0].value
+                if isinstance(first, bool) and first == negated:
+                    yield (
+                        node,
+                        f"the code below this condition never runs: {name} is {first} from the start, and only "
+                        "these lines change it",
+                    )

@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, calls, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import LONGEST_PERIOD, Run, slip, slip_of_run
+from gz_course.grader.feedback.facts.syntax import Place, Words, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import LONGEST_PERIOD, Run, slip, slip_of, slip_of_run
 from gz_course.grader.feedback.slips.nodes.callbacks import handed_over
 
 BEFORE = ("conditions",)
@@ -20,17 +20,16 @@ TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # metho
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 
-@slip
-def constructors(tree: ast.AST) -> Iterator[Place]:
-    for each in nodes_of(tree, ast.ClassDef):
-        for node in each.body:
-            wrong = isinstance(node, ast.FunctionDef) and node.name.strip("_") in ("init", "int", "ini")
-            if isinstance(node, ast.FunctionDef) and wrong and node.name.startswith("_") and node.name != "__init__":
-                yield (
-                    node.lineno,
-                    f"the method {node.name} is never called: the constructor is __init__, with two underscores on "
-                    "either side",
-                )
+@slip_of(ast.ClassDef)
+def constructors(each: ast.ClassDef) -> Words:
+    for node in each.body:
+        wrong = isinstance(node, ast.FunctionDef) and node.name.strip("_") in ("init", "int", "ini")
+        if isinstance(node, ast.FunctionDef) and wrong and node.name.startswith("_") and node.name != "__init__":
+            yield (
+                node,
+                f"the method {node.name} is never called: the constructor is __init__, with two underscores on "
+                "either side",
+            )
 
 
 @slip
@@ -125,23 +124,22 @@ def _comma(values: list[ast.expr]) -> str:
     return f"{ahead}, {behind} are two numbers: Python writes the decimal point as a point, {ahead}.{behind}"
 
 
-@slip
-def strings_with_braces(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Call)
+def strings_with_braces(call: ast.Call) -> Words:
     """Find a text with `{name}` in it that lacks the f before its quotes, where it is logged or published."""
-    for call, name in calls(tree):
-        if name not in ("info", "warn", "warning", "error", "String"):
-            continue
-        for value in [*call.args, *(each.value for each in call.keywords)]:
-            text = value.value if isinstance(value, ast.Constant) else ""
-            if isinstance(text, str) and "{" in text and "}" in text[text.index("{") :]:
-                yield value.lineno, "this text holds {...} but has no f before its quotes, so it is sent as it stands"
+    name = last_name(call.func)
+    if name not in ("info", "warn", "warning", "error", "String"):
+        return
+    for value in [*call.args, *(each.value for each in call.keywords)]:
+        text = value.value if isinstance(value, ast.Constant) else ""
+        if isinstance(text, str) and "{" in text and "}" in text[text.index("{") :]:
+            yield value, "this text holds {...} but has no f before its quotes, so it is sent as it stands"
 
 
-@slip
-def strengths(tree: ast.AST) -> Iterator[Place]:
-    for node in nodes_of(tree, ast.Attribute):
-        if node.attr == "intensities":
-            yield node.lineno, "intensities are how strong the echoes are; how far the points are [m] is in ranges"
+@slip_of(ast.Attribute)
+def strengths(node: ast.Attribute) -> Words:
+    if node.attr == "intensities":
+        yield "intensities are how strong the echoes are; how far the points are [m] is in ranges"
 
 
 @slip

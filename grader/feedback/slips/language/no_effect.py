@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assignments, called, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, assignments, called, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 BEFORE = ("results",)
@@ -24,24 +24,22 @@ MESSAGES = frozenset({
 })  # fmt: skip
 
 
-@slip
-def thrown_away(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Expr)
+def thrown_away(node: ast.Expr) -> Words:
     """Find a comparison or an arithmetic expression that is a statement of its own."""
-    for node in nodes_of(tree, ast.Expr):
-        code = unparse(node.value)[:60]
-        if isinstance(node.value, ast.Compare) and isinstance(node.value.ops[0], ast.Eq):
-            yield node.lineno, f"{code} compares and throws the result away: = assigns, == compares"
-        elif isinstance(node.value, ast.Compare):
-            yield node.lineno, f"{code} compares and throws the result away: return, if or = keeps it"
-        elif isinstance(node.value, ast.BinOp):
-            yield node.lineno, f"{code} is computed and thrown away: += or = keeps the result"
-        elif isinstance(node.value, ast.Call) and _only_returns(node.value):
-            name = unparse(node.value.func)
-            yield (
-                node.lineno,
-                f"{code} is thrown away: {name}() does not change what it is given, it returns the result; "
-                f"... = {name}(...) keeps it",
-            )
+    code = unparse(node.value)[:60]
+    if isinstance(node.value, ast.Compare) and isinstance(node.value.ops[0], ast.Eq):
+        yield f"{code} compares and throws the result away: = assigns, == compares"
+    elif isinstance(node.value, ast.Compare):
+        yield f"{code} compares and throws the result away: return, if or = keeps it"
+    elif isinstance(node.value, ast.BinOp):
+        yield f"{code} is computed and thrown away: += or = keeps the result"
+    elif isinstance(node.value, ast.Call) and _only_returns(node.value):
+        name = unparse(node.value.func)
+        yield (
+            f"{code} is thrown away: {name}() does not change what it is given, it returns the result; "
+            f"... = {name}(...) keeps it"
+        )
 
 
 def _only_returns(call: ast.Call) -> bool:
@@ -54,16 +52,15 @@ def _only_returns(call: ast.Call) -> bool:
     return (name == "sorted" and not owner) or (name == "transform" and "buf" in owner.lower() and len(call.args) == 2)
 
 
-@slip
-def signs_for_operators(tree: ast.AST, text: str = "") -> Iterator[Place]:
+@slip_of(ast.Assign)
+def signs_for_operators(node: ast.Assign) -> Words:
     """Find `x =+ 1`, which assigns +1."""
-    for node in nodes_of(tree, ast.Assign):
-        if isinstance(node.value, ast.UnaryOp) and len(node.targets) == 1:
-            operand = node.value.operand
-            if isinstance(node.value.op, ast.UAdd) and isinstance(operand, ast.Constant):
-                name = unparse(node.targets[0])
-                value = unparse(operand)
-                yield node.lineno, f"{name} =+ {value} sets it to {value} in every call: {name} += {value} adds {value}"
+    if isinstance(node.value, ast.UnaryOp) and len(node.targets) == 1:
+        operand = node.value.operand
+        if isinstance(node.value.op, ast.UAdd) and isinstance(operand, ast.Constant):
+            name = unparse(node.targets[0])
+            value = unparse(operand)
+            yield f"{name} =+ {value} sets it to {value} in every call: {name} += {value} adds {value}"
 
 
 @slip
@@ -118,21 +115,20 @@ def _makes(statement: ast.stmt, name: str) -> bool:
     return isinstance(statement, ast.Assign) and any(unparse(target) == name for target in statement.targets)
 
 
-@slip
-def first_iteration(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def first_iteration(function: ast.FunctionDef) -> Words:
     """Find a return at the end of the body of a loop that collects something: the loop ends at once."""
-    for function in functions(tree):
-        for node in nodes_of(function, ast.For):
-            if not isinstance(node.body[-1], ast.Return):
-                continue
-            if any(isinstance(each, ast.Continue | ast.Break) for each in walk(node)):
-                continue
-            if _set_in(function.body, before=node.lineno) & _set_in(node.body, before=node.body[-1].lineno):
-                yield (
-                    node.body[-1].lineno,
-                    f"{unparse(node.body[-1])[:40]} stands inside of the loop of line {node.lineno}, which ends in "
-                    "its first iteration: further to the left it comes after the loop",
-                )
+    for node in nodes_of(function, ast.For):
+        if not isinstance(node.body[-1], ast.Return):
+            continue
+        if any(isinstance(each, ast.Continue | ast.Break) for each in walk(node)):
+            continue
+        if _set_in(function.body, before=node.lineno) & _set_in(node.body, before=node.body[-1].lineno):
+            yield (
+                node.body[-1],
+                f"{unparse(node.body[-1])[:40]} stands inside of the loop of line {node.lineno}, which ends in "
+                "its first iteration: further to the left it comes after the loop",
+            )
 
 
 @slip
@@ -177,27 +173,26 @@ def _alternatives(test: ast.expr) -> Iterator[ast.BoolOp]:
         yield from _alternatives(part)
 
 
-@slip
-def never_sent(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def never_sent(function: ast.FunctionDef) -> Words:
     """Find a message that a function makes and at most fills, and hands to nobody."""
-    for function in functions(tree):
-        loads = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Load)]
-        bases = {
-            id(inner)
-            for node in nodes_of(function, ast.Attribute)
-            if isinstance(node.ctx, ast.Store)
-            for inner in walk(node)
-        }
-        for target, node in assignments(function):
-            if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
-                continue
-            kind = unparse(node.value.func).rpartition(".")[2]
-            if kind in MESSAGES and all(id(each) in bases for each in loads if each.id == target.id):
-                yield (
-                    node.lineno,
-                    f"{target.id}, a {kind}, is made here and never used: nothing publishes it or puts it into another "
-                    "message",
-                )
+    loads = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Load)]
+    bases = {
+        id(inner)
+        for node in nodes_of(function, ast.Attribute)
+        if isinstance(node.ctx, ast.Store)
+        for inner in walk(node)
+    }
+    for target, node in assignments(function):
+        if not isinstance(target, ast.Name) or not isinstance(node.value, ast.Call):
+            continue
+        kind = unparse(node.value.func).rpartition(".")[2]
+        if kind in MESSAGES and all(id(each) in bases for each in loads if each.id == target.id):
+            yield (
+                node,
+                f"{target.id}, a {kind}, is made here and never used: nothing publishes it or puts it into another "
+                "message",
+            )
 
 
 def _set_in(block: list[ast.stmt], before: int) -> set[str]:

@@ -5,24 +5,23 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Words, unparse, walk
+from gz_course.grader.feedback.slips import slip_of
 
 
-@slip
-def returns_when_there(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def returns_when_there(function: ast.FunctionDef) -> Words:
     """Find `if self.x is not None: return` before lines that use parts of `self.x`, which is None there."""
-    for function in functions(tree):
-        for place, node in enumerate(function.body):
-            if not isinstance(node, ast.If) or node.orelse or unparse(node.body[-1]) not in ("return", "return None"):
-                continue
-            for name in _there(node.test):
-                if _uses(function.body[place + 1 :], name):
-                    yield (
-                        node.lineno,
-                        f"{function.name} returns here when {name} is there, and the lines below use it, where it is "
-                        f"None: if {name} is None",
-                    )
+    for place, node in enumerate(function.body):
+        if not isinstance(node, ast.If) or node.orelse or unparse(node.body[-1]) not in ("return", "return None"):
+            continue
+        for name in _there(node.test):
+            if _uses(function.body[place + 1 :], name):
+                yield (
+                    node,
+                    f"{function.name} returns here when {name} is there, and the lines below use it, where it is "
+                    f"None: if {name} is None",
+                )
 
 
 def _there(test: ast.expr) -> Iterator[str]:

@@ -7,32 +7,30 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 ONCE = frozenset({"map", "filter", "zip", "enumerate", "reversed", "iter"})
 WHOLE_USE = frozenset({"min", "max", "sum", "sorted", "list", "tuple", "len", "set", "any", "all", "mean"})
 SILENT = frozenset({"debug", "info"})
 
 
-@slip
-def used_up(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def used_up(function: ast.FunctionDef) -> Words:
     """Find a generator that is gone through twice: the second time it is empty."""
-    for function in functions(tree):
-        for node in walk(function):
-            target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
-            if not isinstance(target, ast.Name) or not isinstance(node, ast.Assign) or not _once(node.value):
-                continue
-            if sum(_is_store(each, target.id) for each in walk(function)) > 1:
-                continue
-            uses = sorted({line for each in walk(function) if (line := _goes_through(each, target.id))})
-            if len(uses) > 1:
-                yield (
-                    uses[1],
-                    f"{target.id} of line {node.lineno} can be gone through once only, which line {uses[0]} does: "
-                    f"here it "
-                    f"is empty; a list, [...] or list(...), can be read again",
-                )
+    for node in walk(function):
+        target = node.targets[0] if isinstance(node, ast.Assign) and len(node.targets) == 1 else None
+        if not isinstance(target, ast.Name) or not isinstance(node, ast.Assign) or not _once(node.value):
+            continue
+        if sum(_is_store(each, target.id) for each in walk(function)) > 1:
+            continue
+        uses = sorted({line for each in walk(function) if (line := _goes_through(each, target.id))})
+        if len(uses) > 1:
+            yield (
+                uses[1],
+                f"{target.id} of line {node.lineno} can be gone through once only, which line {uses[0]} does: here it "
+                "is empty; a list, [...] or list(...), can be read again",
+            )
 
 
 def _once(node: ast.expr) -> bool:
@@ -55,26 +53,24 @@ def _goes_through(node: ast.AST, name: str) -> int:
     return 0
 
 
-@slip
-def same_object(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef, first=True)
+def same_object(function: ast.FunctionDef) -> Words:
     """Find `hit.header = scan.header` and then `hit.header.frame_id = ...`, which changes the scan too."""
-    for function in functions(tree):
-        for node in nodes_of(function, ast.Assign):
-            if not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
+    for node in nodes_of(function, ast.Assign):
+        if not isinstance(node.value, ast.Attribute) or len(node.targets) != 1:
+            continue
+        target, value = unparse(node.targets[0]), unparse(node.value)
+        if not isinstance(node.targets[0], ast.Attribute) or value.rpartition(".")[2] not in PARTS:
+            continue
+        for each in nodes_of(function, ast.Assign):
+            if each.lineno <= node.lineno:
                 continue
-            target, value = unparse(node.targets[0]), unparse(node.value)
-            if not isinstance(node.targets[0], ast.Attribute) or value.rpartition(".")[2] not in PARTS:
-                continue
-            for each in nodes_of(function, ast.Assign):
-                if each.lineno <= node.lineno:
-                    continue
-                if unparse(each.targets[0]).startswith(f"{target}."):
-                    yield (
-                        each.lineno,
-                        f"{target} is {value} itself since line {node.lineno}, no copy: this line changes both; set "
-                        "the fields one by one, or copy.deepcopy() it",
-                    )
-                    return
+            if unparse(each.targets[0]).startswith(f"{target}."):
+                yield (
+                    each,
+                    f"{target} is {value} itself since line {node.lineno}, no copy: this line changes both; set "
+                    "the fields one by one, or copy.deepcopy() it",
+                )
 
 
 PARTS = frozenset(
@@ -110,36 +106,32 @@ def identity(tree: ast.AST) -> Iterator[Place]:
                 break
 
 
-@slip
-def repeated_rows(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.BinOp)
+def repeated_rows(node: ast.BinOp) -> Words:
     """Find `[[0] * width] * height`, whose rows are all the same list."""
-    for node in nodes_of(tree, ast.BinOp):
-        if isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
-            inner = node.left.elts[0] if len(node.left.elts) == 1 else None
-            rows = isinstance(inner, ast.List | ast.ListComp | ast.Dict | ast.Set) or (
-                isinstance(inner, ast.BinOp) and isinstance(inner.left, ast.List)
-            )
-            if rows:
-                yield (
-                    node.lineno,
-                    f"{unparse(node)[:60]} repeats one and the same row: a change of one row changes all; "
-                    "[[0] * width for _ in range(height)] makes a row each time",
-                )
-
-
-@slip
-def whole_seconds_of_a_stamp(tree: ast.AST) -> Iterator[Place]:
-    """Find `Time(seconds=stamp.sec)`, which leaves the nanoseconds out."""
-    for node in nodes_of(tree, ast.Call):
-        if unparse(node.func).rpartition(".")[2] not in ("Time", "Duration"):
-            continue
-        given = {each.arg: unparse(each.value) for each in node.keywords}
-        if given.get("seconds", "").endswith(".sec") and not {"nanoseconds", "nanosec"} & set(given):
+    if isinstance(node.op, ast.Mult) and isinstance(node.left, ast.List):
+        inner = node.left.elts[0] if len(node.left.elts) == 1 else None
+        rows = isinstance(inner, ast.List | ast.ListComp | ast.Dict | ast.Set) or (
+            isinstance(inner, ast.BinOp) and isinstance(inner.left, ast.List)
+        )
+        if rows:
             yield (
-                node.lineno,
-                f"{unparse(node)[:60]} has the whole seconds only, and the stamp's nanosec is left out: "
-                "Time.from_msg(stamp) takes both",
+                f"{unparse(node)[:60]} repeats one and the same row: a change of one row changes all; "
+                "[[0] * width for _ in range(height)] makes a row each time"
             )
+
+
+@slip_of(ast.Call)
+def whole_seconds_of_a_stamp(node: ast.Call) -> Words:
+    """Find `Time(seconds=stamp.sec)`, which leaves the nanoseconds out."""
+    if unparse(node.func).rpartition(".")[2] not in ("Time", "Duration"):
+        return
+    given = {each.arg: unparse(each.value) for each in node.keywords}
+    if given.get("seconds", "").endswith(".sec") and not {"nanoseconds", "nanosec"} & set(given):
+        yield (
+            f"{unparse(node)[:60]} has the whole seconds only, and the stamp's nanosec is left out: "
+            "Time.from_msg(stamp) takes both"
+        )
 
 
 @slip
@@ -159,22 +151,20 @@ def python_logging(tree: ast.AST) -> Iterator[Place]:
             return
 
 
-@slip
-def zero_is_false(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.ClassDef)
+def zero_is_false(owner: ast.ClassDef) -> Words:
     """Find `if not self.x:` where self.x begins as None and is later set to 0: it asks for None and for 0 alike."""
-    for owner in nodes_of(tree, ast.ClassDef):
-        given: dict[str, list[object]] = {}
-        for node in nodes_of(owner, ast.Assign):
-            if isinstance(node.value, ast.Constant):
-                given.setdefault(unparse(node.targets[0]), []).append(node.value.value)
-        for block in nodes_of(owner, ast.If):
-            if isinstance(block.test, ast.UnaryOp) and isinstance(block.test.op, ast.Not):
-                name = unparse(block.test.operand)
-                values = given.get(name, [])
-                zero = next((v for v in values if type(v) in (int, float) and v == 0), None)
-                if None in values and zero is not None:
-                    yield (
-                        block.test.lineno,
-                        f"not {name} holds for {zero}, too, not only for None: {zero} counts as false; ask "
-                        f"{name} is None",
-                    )
+    given: dict[str, list[object]] = {}
+    for node in nodes_of(owner, ast.Assign):
+        if isinstance(node.value, ast.Constant):
+            given.setdefault(unparse(node.targets[0]), []).append(node.value.value)
+    for block in nodes_of(owner, ast.If):
+        if isinstance(block.test, ast.UnaryOp) and isinstance(block.test.op, ast.Not):
+            name = unparse(block.test.operand)
+            values = given.get(name, [])
+            zero = next((v for v in values if type(v) in (int, float) and v == 0), None)
+            if None in values and zero is not None:
+                yield (
+                    block.test,
+                    f"not {name} holds for {zero}, too, not only for None: {zero} counts as false; ask {name} is None",
+                )

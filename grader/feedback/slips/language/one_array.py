@@ -5,8 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, last_name, nodes_of, unparse
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Words,
+    assigned,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+)
+from gz_course.grader.feedback.slips import slip, slip_of
 
 MAKES = frozenset({"zeros", "ones", "full", "empty", "array", "zeros_like", "list", "dict", "set"})
 CHANGES = frozenset({"append", "extend", "add", "update", "fill", "insert"})
@@ -33,24 +42,23 @@ def one_array(tree: ast.AST) -> Iterator[Place]:
                 )
 
 
-@slip
-def one_local(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def one_local(function: ast.FunctionDef) -> Words:
     """Find `misses = hits = set()` in a function that adds to both by different calls."""
-    for function in functions(tree):
-        for node in (each for each in nodes_of(function, ast.Assign) if len(each.targets) > 1):
-            names = [each.id for each in node.targets if isinstance(each, ast.Name)]
-            new = {unparse(one) for one, _ in assigned(function) if one not in node.targets}
-            added = [
-                name
-                for name in names
-                if any(each in CHANGES and unparse(call.func).startswith(f"{name}.") for call, each in calls(function))
-            ]
-            if _makes(node.value) and len(added) > 1 and not new & set(names):
-                yield (
-                    node.lineno,
-                    f"{unparse(node)[:70]} gives one collection two names, so what is added to {added[0]} is in "
-                    f"{added[1]}, too: make each of its own",
-                )
+    for node in (each for each in nodes_of(function, ast.Assign) if len(each.targets) > 1):
+        names = [each.id for each in node.targets if isinstance(each, ast.Name)]
+        new = {unparse(one) for one, _ in assigned(function) if one not in node.targets}
+        added = [
+            name
+            for name in names
+            if any(each in CHANGES and unparse(call.func).startswith(f"{name}.") for call, each in calls(function))
+        ]
+        if _makes(node.value) and len(added) > 1 and not new & set(names):
+            yield (
+                node,
+                f"{unparse(node)[:70]} gives one collection two names, so what is added to {added[0]} is in "
+                f"{added[1]}, too: make each of its own",
+            )
 
 
 def _makes(value: ast.expr) -> bool:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, calls, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 SENT = frozenset({"publish", "info"})
 
@@ -54,46 +54,43 @@ def _given(call: ast.Call) -> list[ast.expr]:
     return [*call.args, *(each.value for each in call.keywords)]
 
 
-@slip
-def before_it_is_sent(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef, first=True)
+def before_it_is_sent(function: ast.FunctionDef) -> Words:
     """Find `self.nearest = math.inf` in every call, between the loop that finds it and the publish() of it."""
-    for function in functions(tree):
-        for i, statement in enumerate(function.body):
-            if not isinstance(statement, ast.Assign) or len(statement.targets) != 1 or not _constant(statement.value):
-                continue
-            name = unparse(statement.targets[0])
-            if not any(_computes(each, name) for each in function.body[:i]):
-                continue
-            for later in function.body[i + 1 :]:
-                if any(unparse(target) == name for target, _ in assigned(later)):
-                    break
-                if line := _sends(later, name):
-                    yield (
-                        statement.lineno,
-                        f"{unparse(statement)[:60]} comes before line {line}, which sends {name}: what was found "
-                        "is lost; set it back after that line, or at the beginning of the function",
-                    )
-                    return
+    for i, statement in enumerate(function.body):
+        if not isinstance(statement, ast.Assign) or len(statement.targets) != 1 or not _constant(statement.value):
+            continue
+        name = unparse(statement.targets[0])
+        if not any(_computes(each, name) for each in function.body[:i]):
+            continue
+        for later in function.body[i + 1 :]:
+            if any(unparse(target) == name for target, _ in assigned(later)):
+                break
+            if line := _sends(later, name):
+                yield (
+                    statement,
+                    f"{unparse(statement)[:60]} comes before line {line}, which sends {name}: what was found "
+                    "is lost; set it back after that line, or at the beginning of the function",
+                )
 
 
-@slip
-def else_of_a_search(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.For)
+def else_of_a_search(loop: ast.For) -> Words:
     """Find `if r < best: best = r` in a loop whose else sets best to something that is not in the scan's own loop."""
-    for loop in nodes_of(tree, ast.For):
-        values = {node.id for node in nodes_of(loop.target, ast.Name)}
-        for node in (each for each in nodes_of(loop, ast.If) if isinstance(each.test, ast.Compare)):
-            sides = {unparse(each) for each in (node.test.left, *node.test.comparators)}  # type: ignore[attr-defined]
-            kept = {
-                unparse(target)
-                for each in node.body
-                for target, value in assigned(each)
-                if {unparse(target), unparse(value)} == sides and unparse(value) in values
-            }
-            for each in node.orelse:
-                for target, value in assigned(each) if isinstance(each, ast.Assign) else ():
-                    if unparse(target) in kept and not values & {unparse(part) for part in walk(value)}:
-                        yield (
-                            each.lineno,
-                            f"{unparse(each)[:60]} forgets what was found as soon as one value is no better: only "
-                            "the last ones count; a search needs no else",
-                        )
+    values = {node.id for node in nodes_of(loop.target, ast.Name)}
+    for node in (each for each in nodes_of(loop, ast.If) if isinstance(each.test, ast.Compare)):
+        sides = {unparse(each) for each in (node.test.left, *node.test.comparators)}  # type: ignore[attr-defined]
+        kept = {
+            unparse(target)
+            for each in node.body
+            for target, value in assigned(each)
+            if {unparse(target), unparse(value)} == sides and unparse(value) in values
+        }
+        for each in node.orelse:
+            for target, value in assigned(each) if isinstance(each, ast.Assign) else ():
+                if unparse(target) in kept and not values & {unparse(part) for part in walk(value)}:
+                    yield (
+                        each,
+                        f"{unparse(each)[:60]} forgets what was found as soon as one value is no better: only "
+                        "the last ones count; a search needs no else",
+                    )

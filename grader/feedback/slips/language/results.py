@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
     Place,
+    Words,
     assigned,
     calls,
     functions,
@@ -16,7 +17,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.slips import slip, slip_of
 
 NEVER_RETURN = frozenset({"NotImplementedError", "abstractmethod"})
 
@@ -110,28 +111,25 @@ def one_message(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-@slip
-def not_called(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.ClassDef, first=True)
+def not_called(owner: ast.ClassDef) -> Words:
     """Find `if not self.over:` where over is a method: without brackets it is always true."""
-    for owner in nodes_of(tree, ast.ClassDef):
-        methods = {each.name for each in owner.body if isinstance(each, ast.FunctionDef) and not each.decorator_list}
-        kept = {unparse(target) for target, _ in assigned(owner)}
-        for node in walk(owner):
-            match node:
-                case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(ast.Not(), test):
-                    parts = [test]
-                case ast.BoolOp(values=[*parts, _]):  # the last one may be a value, as in `given or self.method`
-                    pass
-                case ast.Compare(left=test, comparators=[ast.Constant(value=True | False)]):
-                    parts = [test]
-                case _:
-                    continue
-            for part in parts:
-                name = unparse(part)
-                if isinstance(part, ast.Attribute) and name.removeprefix("self.") in methods and name not in kept:
-                    yield (
-                        part.lineno,
-                        f"{name} without brackets is the method itself, which counts as true and is not called: "
-                        f"{name}()",
-                    )
-                    return
+    methods = {each.name for each in owner.body if isinstance(each, ast.FunctionDef) and not each.decorator_list}
+    kept = {unparse(target) for target, _ in assigned(owner)}
+    for node in walk(owner):
+        match node:
+            case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.UnaryOp(ast.Not(), test):
+                parts = [test]
+            case ast.BoolOp(values=[*parts, _]):  # the last one may be a value, as in `given or self.method`
+                pass
+            case ast.Compare(left=test, comparators=[ast.Constant(value=True | False)]):
+                parts = [test]
+            case _:
+                continue
+        for part in parts:
+            name = unparse(part)
+            if isinstance(part, ast.Attribute) and name.removeprefix("self.") in methods and name not in kept:
+                yield (
+                    part,
+                    f"{name} without brackets is the method itself, which counts as true and is not called: {name}()",
+                )

@@ -5,8 +5,16 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, last_name, left_early, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Words,
+    last_name,
+    left_early,
+    nodes_of,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.slips import slip, slip_of
 
 BEFORE = ("not_what_they_seem",)
 
@@ -31,22 +39,21 @@ def assigned(function: ast.FunctionDef) -> dict[str, list[ast.expr | None]]:
     return found
 
 
-@slip
-def read_twice(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def read_twice(function: ast.FunctionDef) -> Words:
     """Find a generator, or what filter() and map() return, that is read to its end twice."""
-    for function in functions(tree):
-        for name, values in assigned(function).items():
-            value = values[0] if len(values) == 1 else None
-            what = "a generator" if isinstance(value, ast.GeneratorExp) else ""
-            if isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.func.id in READ_ONCE:
-                what = f"what {value.func.id}() returns"
-            readers = sorted(_readers(function, name), key=lambda node: (node.lineno, node.col_offset)) if what else []
-            if len(readers) > 1:
-                yield (
-                    readers[1].lineno,
-                    f"{name} is {what}, which can be read only once: line {readers[0].lineno} has read it to its end, "
-                    "and here it is empty; make a list, [... for ... in ...] or list(...)",
-                )
+    for name, values in assigned(function).items():
+        value = values[0] if len(values) == 1 else None
+        what = "a generator" if isinstance(value, ast.GeneratorExp) else ""
+        if isinstance(value, ast.Call) and isinstance(value.func, ast.Name) and value.func.id in READ_ONCE:
+            what = f"what {value.func.id}() returns"
+        readers = sorted(_readers(function, name), key=lambda node: (node.lineno, node.col_offset)) if what else []
+        if len(readers) > 1:
+            yield (
+                readers[1],
+                f"{name} is {what}, which can be read only once: line {readers[0].lineno} has read it to its end, "
+                "and here it is empty; make a list, [... for ... in ...] or list(...)",
+            )
 
 
 def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
@@ -59,28 +66,27 @@ def _readers(function: ast.FunctionDef, name: str) -> Iterator[ast.expr]:
                 yield node.iter
 
 
-@slip
-def changed_while_read(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.For)
+def changed_while_read(loop: ast.For) -> Words:
     """Find a loop over a list that takes elements out of the same list, and goes on."""
-    for loop in nodes_of(tree, ast.For):
-        over = loop.iter
-        if isinstance(over, ast.Call) and last_name(over.func) == "enumerate" and over.args:
-            over = over.args[0]
-        if not isinstance(over, ast.Name | ast.Attribute):
-            continue
-        name = unparse(over)
-        for node in walk(loop):
-            call = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in CHANGES
-            taken = call and unparse(node.func.value) == name  # type: ignore[attr-defined]
-            if isinstance(node, ast.Delete):
-                taken = any(isinstance(each, ast.Subscript) and unparse(each.value) == name for each in node.targets)
-            if taken and not _leaves_after(loop.body, node):
-                yield (
-                    node.lineno,  # type: ignore[attr-defined]
-                    f"this changes {name} while the loop in line {loop.lineno} runs over it: what follows moves up, so "
-                    "the loop skips the next element; make a new list of those that are to stay",
-                )
-                break
+    over = loop.iter
+    if isinstance(over, ast.Call) and last_name(over.func) == "enumerate" and over.args:
+        over = over.args[0]
+    if not isinstance(over, ast.Name | ast.Attribute):
+        return
+    name = unparse(over)
+    for node in walk(loop):
+        call = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in CHANGES
+        taken = call and unparse(node.func.value) == name  # type: ignore[attr-defined]
+        if isinstance(node, ast.Delete):
+            taken = any(isinstance(each, ast.Subscript) and unparse(each.value) == name for each in node.targets)
+        if taken and not _leaves_after(loop.body, node):
+            yield (
+                node,
+                f"this changes {name} while the loop in line {loop.lineno} runs over it: what follows moves up, so "
+                "the loop skips the next element; make a new list of those that are to stay",
+            )
+            break
 
 
 def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
@@ -95,20 +101,18 @@ def _leaves_after(block: list[ast.stmt], node: ast.AST) -> bool:
     return False
 
 
-@slip
-def compared_with_nan(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Compare)
+def compared_with_nan(node: ast.Compare) -> Words:
     """Find comparisons that are always the same: with nan by value, with a float by identity."""
-    for node in nodes_of(tree, ast.Compare):
-        for left, operator, right in zip([node.left, *node.comparators], node.ops, node.comparators, strict=False):
-            kinds = {_constant(side) for side in (left, right)}
-            if isinstance(operator, ast.Eq | ast.NotEq) and "nan" in kinds:
-                yield node.lineno, "nothing is equal to nan, not even nan itself: math.isnan(x) asks for it"
-            elif isinstance(operator, ast.Is | ast.IsNot) and kinds & {"nan", "inf"}:
-                yield (
-                    node.lineno,
-                    "`is` asks for the same object, not for the same value: math.isinf(x) and math.isnan(x) ask for "
-                    "inf and nan",
-                )
+    for left, operator, right in zip([node.left, *node.comparators], node.ops, node.comparators, strict=False):
+        kinds = {_constant(side) for side in (left, right)}
+        if isinstance(operator, ast.Eq | ast.NotEq) and "nan" in kinds:
+            yield "nothing is equal to nan, not even nan itself: math.isnan(x) asks for it"
+        elif isinstance(operator, ast.Is | ast.IsNot) and kinds & {"nan", "inf"}:
+            yield (
+                "`is` asks for the same object, not for the same value: math.isinf(x) and math.isnan(x) ask for "
+                "inf and nan"
+            )
 
 
 def _constant(node: ast.expr) -> str:

@@ -96,9 +96,8 @@ def kept_by_the_class(tree: ast.AST) -> Iterator[Place]:
                 attribute = unparse(target).rpartition(".")[2]
                 yield (
                     target.lineno,
-                    f"{unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of "
-                    f"{owner.name} share it and the last message of any of them counts: self.{attribute} is one for "
-                    "each",
+                    f"{unparse(target)} belongs to the class, so all {made.count(owner.name)} objects of {owner.name} "
+                    f"share it and the last message of any of them counts: self.{attribute} is one for each",
                 )
 
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Words, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip_of
 
 
 def _numbers(test: ast.expr) -> set[str]:
@@ -27,21 +26,20 @@ def _leaves(loop: ast.While) -> bool:
     return any(isinstance(each, ways) and id(each) not in cancelled for each in walk(loop))
 
 
-@slip
-def never_changes(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def never_changes(function: ast.FunctionDef) -> Words:
     """Find `while left > 0.1:` where left was computed above the loop, and nowhere in it."""
-    for function in functions(tree):
-        shared = {n for each in nodes_of(function, ast.Global, ast.Nonlocal) for n in each.names}
-        stores = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Store)]
-        for loop in nodes_of(function, ast.While):
-            names = _numbers(loop.test)
-            inside = {id(node) for node in walk(loop)}
-            above = [n for n in stores if n.id in names and n.lineno < loop.lineno and id(n) not in inside]
-            changed = {n.id for n in stores if id(n) in inside} | shared
-            if names and not names & changed and {n.id for n in above} == names and not _leaves(loop):
-                last = max(above, key=lambda node: node.lineno)
-                yield (
-                    loop.lineno,
-                    f"nothing in this loop changes {last.id}, which line {last.lineno} has computed, so "
-                    f"`{unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
-                )
+    shared = {n for each in nodes_of(function, ast.Global, ast.Nonlocal) for n in each.names}
+    stores = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Store)]
+    for loop in nodes_of(function, ast.While):
+        names = _numbers(loop.test)
+        inside = {id(node) for node in walk(loop)}
+        above = [n for n in stores if n.id in names and n.lineno < loop.lineno and id(n) not in inside]
+        changed = {n.id for n in stores if id(n) in inside} | shared
+        if names and not names & changed and {n.id for n in above} == names and not _leaves(loop):
+            last = max(above, key=lambda node: node.lineno)
+            yield (
+                loop,
+                f"nothing in this loop changes {last.id}, which line {last.lineno} has computed, so "
+                f"`{unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
+            )

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, kept, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, called, calls, functions, kept, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 LONGEST_WAIT = 8.0  # [s] of counted ticks; a later message was hardly meant
 ENDS = ("shutdown", "destroy_node")  # what belongs behind spin()
@@ -112,30 +112,29 @@ def cancelled_at_once(tree: ast.AST) -> Iterator[Place]:
                 yield statement.lineno, f"{timer} is cancelled in __init__, before it has fired once: cancel it later"
 
 
-@slip
-def never_true(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.ClassDef)
+def never_true(owner: ast.ClassDef, tree: ast.AST) -> Words:
     """Find `if self.x:` where `self.x` begins as False, None or 0 and only the block below changes it.
 
     `if not self.x: return` keeps the lines behind it back in the same way.
     """
-    for owner in nodes_of(tree, ast.ClassDef):
-        begins = _first_values(owner)
-        for node, behind in ((each, block[i + 1 :]) for block in blocks(owner) for i, each in enumerate(block)):
-            if not isinstance(node, ast.If):
-                continue
-            name, held, where = _kept_back(node, behind)
-            if name not in begins or begins[name]:
-                continue
-            inside = {id(each) for statement in held for each in walk(statement)}
-            changed = [each for each in _assignments(owner) if _changes(each, name)]
-            others = [each for each in changed if id(each) not in inside]
-            outside = [each for each in _assignments(tree) if _changes(each, name.removeprefix("self"))]
-            if len(others) != 1 or not len(others) < len(changed) == len(outside):
-                continue
-            yield (
-                node.lineno,
-                f"the code {where} never runs: {name} is {begins[name]} from the start, and only these lines change it",
-            )
+    begins = _first_values(owner)
+    for node, behind in ((each, block[i + 1 :]) for block in blocks(owner) for i, each in enumerate(block)):
+        if not isinstance(node, ast.If):
+            continue
+        name, held, where = _kept_back(node, behind)
+        if name not in begins or begins[name]:
+            continue
+        inside = {id(each) for statement in held for each in walk(statement)}
+        changed = [each for each in _assignments(owner) if _changes(each, name)]
+        others = [each for each in changed if id(each) not in inside]
+        outside = [each for each in _assignments(tree) if _changes(each, name.removeprefix("self"))]
+        if len(others) != 1 or not len(others) < len(changed) == len(outside):
+            continue
+        yield (
+            node,
+            f"the code {where} never runs: {name} is {begins[name]} from the start, and only these lines change it",
+        )
 
 
 def _kept_back(node: ast.If, behind: list[ast.stmt]) -> tuple[str, list[ast.stmt], str]:

@@ -3,39 +3,37 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, called, nodes_of, unparse
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, nodes_of, unparse
+from gz_course.grader.feedback.slips import slip_of
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
-@slip
-def once_before_any_message(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.ClassDef)
+def once_before_any_message(owner: ast.ClassDef, tree: ast.AST) -> Words:
     """Find `self.control()` in `__init__`, the only call of a method that returns while an attribute is None."""
-    for owner in nodes_of(tree, ast.ClassDef):
-        methods = {node.name: node for node in owner.body if isinstance(node, Function)}
-        start = methods.get("__init__")
-        if start is None or "create_subscription" not in called(owner):
+    methods = {node.name: node for node in owner.body if isinstance(node, Function)}
+    start = methods.get("__init__")
+    if start is None or "create_subscription" not in called(owner):
+        return
+    none = {unparse(t) for t, value in assigned(start) if isinstance(value, ast.Constant) and not value.value}
+    for statement in start.body:
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
             continue
-        none = {unparse(t) for t, value in assigned(start) if isinstance(value, ast.Constant) and not value.value}
-        for statement in start.body:
-            call = statement.value if isinstance(statement, ast.Expr) else None
-            if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
-                continue
-            name = call.func.attr
-            method = methods.get(name)
-            if method is None or unparse(call.func.value) != "self" or "publish" not in called(method):
-                continue
-            missing = _awaited(method, none)
-            used = [n for n in nodes_of(tree, ast.Attribute) if n.attr == name]
-            if missing and len(used) == 1 and "spin_once" not in called(start):
-                yield (
-                    call.lineno,
-                    f"{name} is called once, here in __init__, where {missing} is not there yet, so it returns; "
-                    f"nothing calls it again: self.create_timer(PERIOD, self.{name}) does",
-                )
+        name = call.func.attr
+        method = methods.get(name)
+        if method is None or unparse(call.func.value) != "self" or "publish" not in called(method):
+            continue
+        missing = _awaited(method, none)
+        used = [n for n in nodes_of(tree, ast.Attribute) if n.attr == name]
+        if missing and len(used) == 1 and "spin_once" not in called(start):
+            yield (
+                call,
+                f"{name} is called once, here in __init__, where {missing} is not there yet, so it returns; "
+                f"nothing calls it again: self.create_timer(PERIOD, self.{name}) does",
+            )
 
 
 def _awaited(method: Function, none: set[str]) -> str:

@@ -5,34 +5,33 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, called, calls, nodes_of, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 ENDS = frozenset({"BaseException", "KeyboardInterrupt"})
 LEAVES = ast.Break | ast.Return | ast.Raise
 EXITS = frozenset({"exit", "_exit", "quit", "abort"})
 
 
-@slip
-def never_ends(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.While)
+def never_ends(loop: ast.While) -> Words:
     """Find `while True` with a `try` inside that spins, catches KeyboardInterrupt and goes on."""
-    for loop in nodes_of(tree, ast.While):
-        if not isinstance(loop.test, ast.Constant) or not loop.test.value:
-            continue
-        for node in nodes_of(loop, ast.Try):
-            spins = any(name.startswith("spin") for part in node.body for name in called(part))
-            for handler in node.handlers if spins else ():
-                if not _catches(handler):
-                    continue
-                leaves = any(isinstance(each, LEAVES) for each in walk(handler)) or called(handler) & EXITS
-                if not leaves and not _asks_whether_ok(loop):
-                    caught = unparse(handler.type) if handler.type else "without a name"
-                    yield (
-                        handler.lineno,
-                        f"this except ({caught}) catches the KeyboardInterrupt of Ctrl-C, and the loop of line "
-                        f"{loop.lineno} goes on, so the program never ends: leave the loop here with break",
-                    )
-                break
+    if not isinstance(loop.test, ast.Constant) or not loop.test.value:
+        return
+    for node in nodes_of(loop, ast.Try):
+        spins = any(name.startswith("spin") for part in node.body for name in called(part))
+        for handler in node.handlers if spins else ():
+            if not _catches(handler):
+                continue
+            leaves = any(isinstance(each, LEAVES) for each in walk(handler)) or called(handler) & EXITS
+            if not leaves and not _asks_whether_ok(loop):
+                caught = unparse(handler.type) if handler.type else "without a name"
+                yield (
+                    handler,
+                    f"this except ({caught}) catches the KeyboardInterrupt of Ctrl-C, and the loop of line "
+                    f"{loop.lineno} goes on, so the program never ends: leave the loop here with break",
+                )
+            break
 
 
 def _catches(handler: ast.ExceptHandler) -> bool:

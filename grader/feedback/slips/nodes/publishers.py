@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import Place, called, calls, functions, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import Place, Words, called, calls, unparse, walk
+from gz_course.grader.feedback.slips import slip, slip_of
 
 BEFORE = ("map_starts",)
 
@@ -28,26 +28,25 @@ def never_published(tree: ast.AST) -> Iterator[Place]:
             )
 
 
-@slip
-def made_for_one_message(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def made_for_one_message(function: ast.FunctionDef) -> Words:
     """Find a callback that makes a publisher and publishes at once."""
-    for function in functions(tree):
-        nested = sum(isinstance(each, ast.FunctionDef | ast.Lambda) for each in walk(function)) > 1
-        if function.name in BEGINNINGS or nested or WAITS & called(function):
-            continue
-        made = {
-            unparse(node.targets[0]): node.lineno
-            for node in function.body
-            if isinstance(node, ast.Assign) and "create_publisher" in called(node.value)
-        }
-        sends = {
-            unparse(call.func.value)
-            for call, name in calls(function)
-            if name == "publish" and isinstance(call.func, ast.Attribute)
-        }
-        for publisher in sends & set(made):
-            yield (
-                made[publisher],
-                f"{function.name} makes the publisher and publishes at once, before anybody has found it, so the "
-                "message is lost: a publisher is made once, in __init__",
-            )
+    nested = sum(isinstance(each, ast.FunctionDef | ast.Lambda) for each in walk(function)) > 1
+    if function.name in BEGINNINGS or nested or WAITS & called(function):
+        return
+    made = {
+        unparse(node.targets[0]): node.lineno
+        for node in function.body
+        if isinstance(node, ast.Assign) and "create_publisher" in called(node.value)
+    }
+    sends = {
+        unparse(call.func.value)
+        for call, name in calls(function)
+        if name == "publish" and isinstance(call.func, ast.Attribute)
+    }
+    for publisher in sends & set(made):
+        yield (
+            made[publisher],
+            f"{function.name} makes the publisher and publishes at once, before anybody has found it, so the "
+            "message is lost: a publisher is made once, in __init__",
+        )

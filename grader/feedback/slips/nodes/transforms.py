@@ -13,6 +13,7 @@ from typing import Any
 from gz_course.grader.feedback.facts.syntax import (
     Place,
     Places,
+    Words,
     called,
     calls,
     functions,
@@ -22,7 +23,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
 
 ASKED = frozenset({"lookup_transform", "can_transform"})
@@ -106,20 +107,19 @@ def _endless(loop: ast.While) -> bool:
     )
 
 
-@slip
-def of_this_moment(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def of_this_moment(function: ast.FunctionDef) -> Words:
     """Find a lookup at the time now, for data that came now: its transform cannot have come yet."""
-    for function in functions(tree):
-        if not {each.arg for each in function.args.args} - {"self"}:
-            continue  # a timer may be called when a transform has just come
-        now = {unparse(node.targets[0]) for node in nodes_of(function, ast.Assign) if _is_now(node.value)}
-        for call, time in _lookups(function):
-            if time is not None and (_is_now(time) or unparse(time) in now) and len(call.args) <= 3:
-                yield (
-                    call.lineno,
-                    f"{last_name(call.func)}() asks for the transform of this very moment, now(), which has not come "
-                    "yet when it is asked for: the time belongs to the data, as in Time.from_msg(msg.header.stamp)",
-                )
+    if not {each.arg for each in function.args.args} - {"self"}:
+        return  # a timer may be called when a transform has just come
+    now = {unparse(node.targets[0]) for node in nodes_of(function, ast.Assign) if _is_now(node.value)}
+    for call, time in _lookups(function):
+        if time is not None and (_is_now(time) or unparse(time) in now) and len(call.args) <= 3:
+            yield (
+                call,
+                f"{last_name(call.func)}() asks for the transform of this very moment, now(), which has not come "
+                "yet when it is asked for: the time belongs to the data, as in Time.from_msg(msg.header.stamp)",
+            )
 
 
 @slip

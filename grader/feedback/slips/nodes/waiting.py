@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
     Place,
+    Words,
     called,
     calls,
     functions,
@@ -15,7 +16,7 @@ from gz_course.grader.feedback.facts.syntax import (
     nodes_of,
     unparse,
 )
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
 BEFORE = ("endless_spins",)
@@ -126,19 +127,18 @@ def loops_before_spin(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-@slip
-def executors(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.Assign)
+def executors(node: ast.Assign, tree: ast.AST) -> Words:
     """Find an executor that is spun and was given no node."""
-    for node in nodes_of(tree, ast.Assign):
-        if not isinstance(node.value, ast.Call):
-            continue
-        name, kind = unparse(node.targets[0]), unparse(node.value.func).rpartition(".")[2]
-        if kind not in ("SingleThreadedExecutor", "MultiThreadedExecutor"):
-            continue
-        calls = [unparse(each.func) for each in nodes_of(tree, ast.Call)]
-        handed = any(each.arg == "executor" for each in nodes_of(tree, ast.keyword))
-        if f"{name}.spin" in calls and f"{name}.add_node" not in calls and not handed:
-            yield node.lineno, f"{name} is spun, but no node is in it: {name}.add_node(node) comes before {name}.spin()"
+    if not isinstance(node.value, ast.Call):
+        return
+    name, kind = unparse(node.targets[0]), unparse(node.value.func).rpartition(".")[2]
+    if kind not in ("SingleThreadedExecutor", "MultiThreadedExecutor"):
+        return
+    calls = [unparse(each.func) for each in nodes_of(tree, ast.Call)]
+    handed = any(each.arg == "executor" for each in nodes_of(tree, ast.keyword))
+    if f"{name}.spin" in calls and f"{name}.add_node" not in calls and not handed:
+        yield f"{name} is spun, but no node is in it: {name}.add_node(node) comes before {name}.spin()"
 
 
 @slip
@@ -185,19 +185,17 @@ def shut_down_first(tree: ast.AST) -> Iterator[Place]:
                 return
 
 
-@slip
-def sleeps_between_spins(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.While, ast.For, first=True)
+def sleeps_between_spins(loop: ast.While | ast.For) -> Words:
     """Find time.sleep() in the loop that calls spin_once()."""
-    for loop in nodes_of(tree, ast.While, ast.For):
-        found = list(calls(loop))
-        if not any(name == "spin_once" for _, name in found):
-            continue
-        for call, _ in found:
-            value = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
-            if unparse(call.func) in ("time.sleep", "sleep") and isinstance(value, int | float) and value >= PAUSE:
-                yield (
-                    call.lineno,
-                    f"{unparse(call)} in the loop with spin_once(): while it sleeps, no callback runs, and each "
-                    "spin_once() runs one; leave it out, or call rclpy.spin(node)",
-                )
-                return
+    found = list(calls(loop))
+    if not any(name == "spin_once" for _, name in found):
+        return
+    for call, _ in found:
+        value = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else 0
+        if unparse(call.func) in ("time.sleep", "sleep") and isinstance(value, int | float) and value >= PAUSE:
+            yield (
+                call,
+                f"{unparse(call)} in the loop with spin_once(): while it sleeps, no callback runs, and each "
+                "spin_once() runs one; leave it out, or call rclpy.spin(node)",
+            )

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
     Place,
+    Words,
     assigned,
     called,
     calls,
@@ -16,7 +17,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.nodes.transforms import ASKED, KEEPS
 
 TAKES = frozenset({"pop", "popleft", "get", "get_nowait"})
@@ -65,32 +66,31 @@ def _over(loop: ast.For) -> str:
     return unparse(loop.iter)
 
 
-@slip
-def taken_too_early(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def taken_too_early(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find a loop that takes each message out of its list, asks for its transform then, and never puts it back."""
-    for function in functions(tree):
-        for loop in nodes_of(function, ast.While, ast.For):
-            if not _asks(loop, tree):
-                continue
-            kept, name, line = _while_any(loop), "", 0
-            for target, value in assigned(loop):
-                takes = isinstance(value, ast.Call) and last_name(value.func) in TAKES
-                if takes and kept and unparse(value).startswith(f"{kept}."):
-                    name, line = unparse(target), value.lineno
-            if isinstance(loop, ast.For) and not name:
-                kept, each = _over(loop), unparse(loop.target)
-                asked = [call.lineno for call, _ in calls(loop) if _asks(call, tree)]
-                for call, method in calls(loop):
-                    out = method == "remove" and unparse(call) == f"{kept}.remove({each})"
-                    if out and call.lineno < min(asked) and _always(loop, call):
-                        name, line = each, call.lineno
-            if not name or _put_back(function, name) or _looked_at_first(loop, kept, tree):
-                continue
-            yield (
-                line,
-                f"{name} leaves {kept} here, before its transform is asked for: if that has not come yet, the message "
-                "is lost. Take it out when its transform is there, or put it back",
-            )
+    for loop in nodes_of(function, ast.While, ast.For):
+        if not _asks(loop, tree):
+            continue
+        kept, name, line = _while_any(loop), "", 0
+        for target, value in assigned(loop):
+            takes = isinstance(value, ast.Call) and last_name(value.func) in TAKES
+            if takes and kept and unparse(value).startswith(f"{kept}."):
+                name, line = unparse(target), value.lineno
+        if isinstance(loop, ast.For) and not name:
+            kept, each = _over(loop), unparse(loop.target)
+            asked = [call.lineno for call, _ in calls(loop) if _asks(call, tree)]
+            for call, method in calls(loop):
+                out = method == "remove" and unparse(call) == f"{kept}.remove({each})"
+                if out and call.lineno < min(asked) and _always(loop, call):
+                    name, line = each, call.lineno
+        if not name or _put_back(function, name) or _looked_at_first(loop, kept, tree):
+            continue
+        yield (
+            line,
+            f"{name} leaves {kept} here, before its transform is asked for: if that has not come yet, the message "
+            "is lost. Take it out when its transform is there, or put it back",
+        )
 
 
 def _always(loop: ast.For, call: ast.Call) -> bool:
@@ -113,26 +113,25 @@ def _looked_at_first(loop: ast.AST, kept: str, tree: ast.AST) -> bool:
     return any(f"{kept}[" in unparse(call) for call, _ in calls(loop) if _asks(call, tree))
 
 
-@slip
-def emptied(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def emptied(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find a list that is emptied behind the loop that asks for the transforms of its messages."""
-    for function in functions(tree):
-        for loop in (node for node in nodes_of(function, ast.For) if _asks(node, tree)):
-            kept = _over(loop)
-            later = [node for node in walk(function) if getattr(node, "lineno", 0) > (loop.end_lineno or 0)]
-            filled = [call for call, name in calls(function) if name in KEEPS and unparse(call).startswith(f"{kept}.")]
-            if not filled or any(call.lineno >= loop.lineno for call in filled):
+    for loop in (node for node in nodes_of(function, ast.For) if _asks(node, tree)):
+        kept = _over(loop)
+        later = [node for node in walk(function) if getattr(node, "lineno", 0) > (loop.end_lineno or 0)]
+        filled = [call for call, name in calls(function) if name in KEEPS and unparse(call).startswith(f"{kept}.")]
+        if not filled or any(call.lineno >= loop.lineno for call in filled):
+            continue
+        for node in later:
+            if node not in function.body and not _in_finally(function, node):
                 continue
-            for node in later:
-                if node not in function.body and not _in_finally(function, node):
-                    continue
-                text = unparse(node)
-                if text == f"{kept}.clear()" or text in {f"{kept} = {empty}" for empty in EMPTY}:
-                    yield (
-                        node.lineno,  # type: ignore[attr-defined]
-                        f"this empties {kept}, also of the messages whose transform has not come yet: only those that "
-                        "are done may leave it",
-                    )
+            text = unparse(node)
+            if text == f"{kept}.clear()" or text in {f"{kept} = {empty}" for empty in EMPTY}:
+                yield (
+                    node,
+                    f"this empties {kept}, also of the messages whose transform has not come yet: only those that "
+                    "are done may leave it",
+                )
 
 
 def _in_finally(function: ast.FunctionDef, node: ast.AST) -> bool:
@@ -260,31 +259,30 @@ def _ends(block: list[ast.stmt]) -> bool:
     return isinstance(block[-1], ast.Return | ast.Break | ast.Continue | ast.Raise)
 
 
-@slip
-def time_of_another(tree: ast.AST) -> Iterator[Place]:
+@slip_of(ast.FunctionDef)
+def time_of_another(function: ast.FunctionDef) -> Words:
     """Find a loop over messages that asks for each transform at the time of the message that has just come."""
-    for function in functions(tree):
-        given = {each.arg for each in function.args.args} - {"self"}
-        values = {unparse(target): value for target, value in assigned(function)}
-        lists = {
-            unparse(call.func.value)
-            for call, name in calls(function)
-            if name in KEEPS and isinstance(call.func, ast.Attribute) and {unparse(each) for each in call.args} & given
-        }
-        for loop in nodes_of(function, ast.For):
-            if _over(loop) not in lists:
-                continue
-            each = unparse(loop.target)
-            for call, name in calls(loop):
-                times = [*call.args[2:3], *(word.value for word in call.keywords if word.arg == "time")]
-                names = _followed(times[0], values, STEPS) if name in ASKED and times else set()
-                if names & given and each not in names and any("stamp" in one for one in names):
-                    new = sorted(names & given)[0]
-                    yield (
-                        call.lineno,
-                        f"this asks for {each}, which waits, at the time of {new}, which has just come and whose "
-                        f"transform is not there yet: the time is that of {each}.header.stamp",
-                    )
+    given = {each.arg for each in function.args.args} - {"self"}
+    values = {unparse(target): value for target, value in assigned(function)}
+    lists = {
+        unparse(call.func.value)
+        for call, name in calls(function)
+        if name in KEEPS and isinstance(call.func, ast.Attribute) and {unparse(each) for each in call.args} & given
+    }
+    for loop in nodes_of(function, ast.For):
+        if _over(loop) not in lists:
+            continue
+        each = unparse(loop.target)
+        for call, name in calls(loop):
+            times = [*call.args[2:3], *(word.value for word in call.keywords if word.arg == "time")]
+            names = _followed(times[0], values, STEPS) if name in ASKED and times else set()
+            if names & given and each not in names and any("stamp" in one for one in names):
+                new = sorted(names & given)[0]
+                yield (
+                    call,
+                    f"this asks for {each}, which waits, at the time of {new}, which has just come and whose "
+                    f"transform is not there yet: the time is that of {each}.header.stamp",
+                )
 
 
 @slip

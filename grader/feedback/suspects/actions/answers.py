@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 ASKS = "is_cancel_requested"
 
@@ -27,20 +26,18 @@ def _answers(function: ast.FunctionDef) -> tuple[str, str] | None:
     return (then, otherwise[0]) if constant and otherwise and then != otherwise[0] else None
 
 
-@suspicion
-def answers_thrown_away(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CANCEL, ast.FunctionDef)
+def answers_thrown_away(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find `self.drive_to(point)` as a statement, where drive_to returns whether the goal was cancelled."""
-    for function in functions(tree):
-        answer = _answers(function)
-        if answer is None:
-            continue
-        for node in walk(tree):
-            call = node.value if isinstance(node, ast.Expr) else None
-            if isinstance(call, ast.Call) and last_name(call.func) == function.name:
-                yield (
-                    call.lineno,
-                    About.CANCEL,
-                    f"{unparse(call.func)}() returns {answer[0]} when the goal is to be cancelled, and this line "
-                    "throws that away, so execute goes on as if the waypoint were reached: ask what it returns, and "
-                    "end the patrol there",
-                )
+    answer = _answers(function)
+    if answer is None:
+        return
+    for node in walk(tree):
+        call = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(call, ast.Call) and last_name(call.func) == function.name:
+            yield (
+                call,
+                f"{unparse(call.func)}() returns {answer[0]} when the goal is to be cancelled, and this line "
+                "throws that away, so execute goes on as if the waypoint were reached: ask what it returns, and "
+                "end the patrol there",
+            )

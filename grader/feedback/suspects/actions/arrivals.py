@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 SIZES = frozenset({"abs", "fabs", "absolute"})
 COORDINATE = re.compile(r"(?:.*_)?(?:d|e|delta|diff|err|error|gap|off|rest)?_?([xy])(?:_.*)?")
@@ -68,8 +76,8 @@ def _conditions(tree: ast.AST) -> dict[str, ast.expr]:
     }
 
 
-@suspicion
-def squares(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.SQUARED)
+def squares(tree: ast.Module) -> Words:
     """Find `distance ** 2 < 0.15`, or `dx * dx + dy * dy < 0.15`: the square of 0.39 m is that small, too."""
     if not called(tree) & {"succeed"}:
         return
@@ -84,8 +92,7 @@ def squares(tree: ast.Module) -> Iterator[Suspect]:
         value = number(limit, known)
         if value is not None and NEAREST_SQUARE < value < 1 and (_is_square(left) or unparse(left) in squared):
             yield (
-                node.lineno,
-                About.SQUARED,
+                node,
                 f"`{unparse(node)[:80]}` compares a square with a distance: the square of {value**0.5:.2f} m is "
                 f"{value:g}, so the robot counts as there {value**0.5:.2f} m away: square the limit, too",
             )
@@ -95,38 +102,35 @@ def _broken_off(loop: ast.While) -> bool:
     return any(isinstance(each, ast.Break) for part in loop.body for each in walk(part))
 
 
-@suspicion
-def one_axis_is_enough(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ONE_AXIS, ast.FunctionDef)
+def one_axis_is_enough(function: ast.FunctionDef) -> Words:
     """Find a place that counts as reached, or a loop to it that ends, as soon as x or y alone is near."""
-    for function in functions(tree):
-        held = _conditions(function)
-        looped = {id(each) for one in walk(function) if isinstance(one, MANY) for each in walk(one)}
-        for node in walk(function):
-            match node:
-                case _ if id(node) in looped:
-                    continue  # it compares with many places
-                case ast.BoolOp(op=how, values=values):
-                    parts = [held.get(each.id, each) if isinstance(each, ast.Name) else each for each in values]
-                    found = [pair for each in parts if (pair := _compared(each))[0]]
-                    fits = len(found) == 2 and {far for _, far in found} == {isinstance(how, ast.And)}
-                    axes = {axis for axis, _ in found}
-                    ends = isinstance(how, ast.And)
-                case ast.Compare(left=ast.Call(func=ast.Name(id="min"), args=[one, other]), ops=[how]):
-                    axes = {_size(one), _size(other)} - {""}
-                    fits, ends = True, isinstance(how, ast.Gt | ast.GtE)
-                case _:
-                    continue
-            if fits and len(axes) == 2:
-                yield (
-                    node.lineno,
-                    About.ONE_AXIS,
-                    f"`{unparse(node)[:90]}` is {'false' if ends else 'true'} as soon as x or y alone is near: "
-                    f"{DISTANCE}",
-                )
+    held = _conditions(function)
+    looped = {id(each) for one in walk(function) if isinstance(one, MANY) for each in walk(one)}
+    for node in walk(function):
+        match node:
+            case _ if id(node) in looped:
+                continue  # it compares with many places
+            case ast.BoolOp(op=how, values=values):
+                parts = [held.get(each.id, each) if isinstance(each, ast.Name) else each for each in values]
+                found = [pair for each in parts if (pair := _compared(each))[0]]
+                fits = len(found) == 2 and {far for _, far in found} == {isinstance(how, ast.And)}
+                axes = {axis for axis, _ in found}
+                ends = isinstance(how, ast.And)
+            case ast.Compare(left=ast.Call(func=ast.Name(id="min"), args=[one, other]), ops=[how]):
+                axes = {_size(one), _size(other)} - {""}
+                fits, ends = True, isinstance(how, ast.Gt | ast.GtE)
+            case _:
+                continue
+        if fits and len(axes) == 2:
+            yield (
+                node,
+                f"`{unparse(node)[:90]}` is {'false' if ends else 'true'} as soon as x or y alone is near: {DISTANCE}",
+            )
 
 
-@suspicion
-def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ONE_AXIS)
+def one_axis_is_asked(tree: ast.AST) -> Words:
     """Find a loop that drives until one coordinate fits, where no condition asks for the other one or a distance."""
     if not called(tree) & {"succeed"}:
         return  # it executes no goals
@@ -140,14 +144,13 @@ def one_axis_is_asked(tree: ast.AST) -> Iterator[Suspect]:
             if len(found) == 1 and _compared(found[0])[1] and not left:
                 other = "y" if _compared(found[0])[0] == "x" else "x"
                 yield (
-                    loop.lineno,
-                    About.ONE_AXIS,
+                    loop,
                     f"`{unparse(found[0])[:90]}` asks for one coordinate only, and {other} may be far off: {DISTANCE}",
                 )
 
 
-@suspicion
-def signs_are_kept(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ONE_AXIS)
+def signs_are_kept(tree: ast.AST) -> Words:
     """Find differences of coordinates that are compared with their signs: each negative one is small enough."""
     if not called(tree) & {"succeed"}:
         return
@@ -155,15 +158,14 @@ def signs_are_kept(tree: ast.AST) -> Iterator[Suspect]:
         found = [pair for each in node.values if (pair := _compared(each, signed=True))[0]]
         if len(found) == 2 and len({axis for axis, _ in found}) == 2 and len({far for _, far in found}) == 1:
             yield (
-                node.lineno,
-                About.ONE_AXIS,
+                node,
                 f"`{unparse(node)[:90]}` compares differences with their signs, and every negative one is small "
                 f"enough, however far the robot is: {DISTANCE}",
             )
 
 
-@suspicion
-def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.INVERTED)
+def inverted_loops(tree: ast.AST) -> Words:
     """Find a loop that drives as long as the robot is near: it is over before it begins."""
     if not called(tree) & {"succeed"}:
         return
@@ -182,8 +184,7 @@ def inverted_loops(tree: ast.AST) -> Iterator[Suspect]:
                     and not left
                 ):
                     yield (
-                        loop.lineno,
-                        About.INVERTED,
+                        loop,
                         f"`while {unparse(node)[:80]}` goes on while the robot is near, and is over at once where "
                         "it is far: > is asked for",
                     )

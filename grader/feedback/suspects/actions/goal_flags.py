@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     calls,
@@ -15,8 +16,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 BEFORE = ("answers",)
 
@@ -51,17 +52,17 @@ def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
             yield function
 
 
-@suspicion
-def cancellations_refused(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.REFUSES_CANCEL)
+def cancellations_refused(tree: ast.AST) -> Words:
     """Find a cancel callback that refuses."""
     for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
         for node in nodes_of(function, ast.Return):
             if node.value is not None and _rejects(node.value):
-                yield node.lineno, About.REFUSES_CANCEL, f"`{unparse(node)[:90]}` in {function.name} refuses"
+                yield node, f"`{unparse(node)[:90]}` in {function.name} refuses"
 
 
-@suspicion
-def waits_for_its_turn(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.QUEUED)
+def waits_for_its_turn(tree: ast.AST) -> Words:
     """Find a goal that waits in execute until the patrol before it has ended: for a lock, or for a flag of the node."""
     given = [
         each.value
@@ -76,14 +77,13 @@ def waits_for_its_turn(tree: ast.AST) -> Iterator[Suspect]:
         for line, what in _waits(function, locks - {""}):
             yield (
                 line,
-                About.QUEUED,
                 f"a goal waits here for {what} until the one before it has ended; one patrol at a time means that "
                 "goal_callback returns GoalResponse.REJECT meanwhile",
             )
 
 
-@suspicion
-def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.REFUSES_ALL)
+def set_before_the_answer(tree: ast.AST) -> Words:
     """Find a flag that refuses goals and is set before other tests, which may still refuse this one."""
     for function in _judges(tree):
         tested = {
@@ -98,8 +98,7 @@ def set_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
                 name, later = _own(target), _refusals(function.body[number + 1 :])
                 if _constant(value) is True and name in tested and later:
                     yield (
-                        statement.lineno,
-                        About.REFUSES_ALL,
+                        statement,
                         f"{name} is set before line {later[0]} rejects a goal, so a rejected goal leaves the server "
                         "busy, too, and nothing ends it: set the flag right before return GoalResponse.ACCEPT",
                     )
@@ -122,8 +121,8 @@ def _given_to_cancel(tree: ast.AST) -> list[str]:
     ]
 
 
-@suspicion
-def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.REFUSES_ALL)
+def locked_before_the_answer(tree: ast.AST) -> Words:
     """Find a lock that is taken in a test of a goal, before other tests that may still refuse it."""
     for function in _judges(tree):
         for number, statement in enumerate(function.body):
@@ -137,15 +136,14 @@ def locked_before_the_answer(tree: ast.AST) -> Iterator[Suspect]:
             if taken and later and not released:
                 name = unparse(taken[0])
                 yield (
-                    statement.lineno,
-                    About.REFUSES_ALL,
+                    statement,
                     f"{name} is acquired before line {later[0]} rejects a goal, and nothing releases it then, so every "
                     "goal after a rejected one is refused, too: acquire it last, right before GoalResponse.ACCEPT",
                 )
 
 
-@suspicion
-def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.STORED_GOAL)
+def kept_of_refused_goals(tree: ast.AST) -> Words:
     """Find what is kept of a goal before it is refused, where another function uses it."""
     for function in _judges(tree):
         goal = function.args.args[-1].arg
@@ -156,15 +154,14 @@ def kept_of_refused_goals(tree: ast.AST) -> Iterator[Suspect]:
                 of_goal = any(isinstance(each, ast.Name) and each.id == goal for each in walk(value))
                 if later and of_goal and _own(target) in used:
                     yield (
-                        statement.lineno,
-                        About.STORED_GOAL,
+                        statement,
                         f"{_own(target)} is set by every goal that comes, also by one that line {later[-1]} rejects: "
                         "take it from goal_handle.request where a goal is executed",
                     )
 
 
-@suspicion
-def cancelled_for_ever(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANEW)
+def cancelled_for_ever(tree: ast.AST) -> Words:
     """Find a flag that the cancel callback sets and that nothing sets back."""
     for function in (each for each in functions(tree) if each.name in _given_to_cancel(tree)):
         for target, value in assigned(function):
@@ -174,16 +171,15 @@ def cancelled_for_ever(tree: ast.AST) -> Iterator[Suspect]:
             asked = any(_own(each) == name for f in others for each in _reads(f))
             if name and _constant(value) is True and asked and not back:
                 yield (
-                    target.lineno,
-                    About.ANEW,
+                    target,
                     f"{name} becomes True with the first cancellation and stays so, so every later goal counts as "
                     "cancelled: ask goal_handle.is_cancel_requested, which each goal has for itself, or set it to "
                     "False where a goal is executed",
                 )
 
 
-@suspicion
-def events_never_cleared(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANEW)
+def events_never_cleared(tree: ast.AST) -> Words:
     """Find an Event of the node that a goal waits for, and that nothing clears for the next goal."""
     if "ActionServer" not in called(tree):
         return
@@ -201,14 +197,13 @@ def events_never_cleared(tree: ast.AST) -> Iterator[Suspect]:
         if where == ["__init__"] and {"wait", "set"} <= does.keys() and "clear" not in does:
             yield (
                 does["wait"],
-                About.ANEW,
                 f"{name} stays set from the first goal on, so wait() returns at once for every later goal: call "
                 f"{name}.clear() where a goal is executed",
             )
 
 
-@suspicion
-def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CANCEL)
+def active_is_not_cancelled(tree: ast.AST) -> Words:
     """Find a loop that asks is_active, in a file that never asks whether a goal is to be cancelled."""
     asked = [each for each in nodes_of(tree, ast.Attribute)]
     if any(each.attr == "is_cancel_requested" for each in asked):
@@ -216,29 +211,26 @@ def active_is_not_cancelled(tree: ast.AST) -> Iterator[Suspect]:
     for each in asked:
         if each.attr == "is_active":
             yield (
-                each.lineno,
-                About.CANCEL,
+                each,
                 f"{unparse(each)} stays True until the goal is ended here, also while somebody waits for it to be "
                 f"cancelled: ask {unparse(each.value)}.is_cancel_requested",
             )
 
 
-@suspicion
-def aborts_at_the_end(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ENDED, ast.FunctionDef)
+def aborts_at_the_end(function: ast.FunctionDef) -> Words:
     """Find abort() as the last end of a goal, in a function that never calls succeed()."""
-    for function in functions(tree):
-        ends = [(call, name) for call, name in calls(function) if name in ENDS and not call.args]
-        if not ends or any(name == "succeed" for _, name in ends):
-            continue
-        for statement in function.body:
-            call = statement.value if isinstance(statement, ast.Expr) else None
-            if isinstance(call, ast.Call) and last_name(call.func) == "abort":
-                yield (
-                    call.lineno,
-                    About.ENDED,
-                    f"{unparse(call)} says that the goal failed; "
-                    f"{unparse(call.func).rpartition('.')[0]}.succeed() ends one that was done",
-                )
+    ends = [(call, name) for call, name in calls(function) if name in ENDS and not call.args]
+    if not ends or any(name == "succeed" for _, name in ends):
+        return
+    for statement in function.body:
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        if isinstance(call, ast.Call) and last_name(call.func) == "abort":
+            yield (
+                call,
+                f"{unparse(call)} says that the goal failed; "
+                f"{unparse(call.func).rpartition('.')[0]}.succeed() ends one that was done",
+            )
 
 
 def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, str]]:
@@ -261,15 +253,11 @@ def _waits(function: ast.FunctionDef, locks: set[str]) -> Iterator[tuple[int, st
                 yield statement.lineno, flag
 
 
-@suspicion
-def feedback_never_sent(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.NO_FEEDBACK)
+def feedback_never_sent(tree: ast.AST) -> Words:
     """Find an action server in a file without publish_feedback()."""
     if any(each.attr == "publish_feedback" for each in nodes_of(tree, ast.Attribute)):
         return
     for call, name in calls(tree):
         if name == "ActionServer":
-            yield (
-                call.lineno,
-                About.NO_FEEDBACK,
-                "the execute callback of this action server never calls publish_feedback()",
-            )
+            yield call, "the execute callback of this action server never calls publish_feedback()"

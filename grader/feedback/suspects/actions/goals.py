@@ -5,8 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 # Comparisons of a length with a number that tell an empty list from all others.
@@ -22,8 +31,8 @@ def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
             yield function
 
 
-@suspicion
-def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GOAL_LENGTH)
+def short_lists_refused(tree: ast.AST) -> Words:
     """Find a length that is compared with another number than the one that tells an empty list."""
     for function in _judges(tree):
         for node in nodes_of(function, ast.Compare):
@@ -36,15 +45,14 @@ def short_lists_refused(tree: ast.AST) -> Iterator[Suspect]:
             if (type(node.ops[0]), number) not in TELLS_EMPTY:
                 what = unparse(node.left.args[0]).rpartition(".")[2] if node.left.args else "the list"
                 yield (
-                    node.lineno,
-                    About.GOAL_LENGTH,
+                    node,
                     f"`{unparse(node)}` refuses goals by the number of their {what}, and not only empty ones: "
                     "a goal with one is a goal, too",
                 )
 
 
-@suspicion
-def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GOAL_LIMIT)
+def limits_excluded(tree: ast.AST) -> Words:
     """Find an answer to a goal by which a speed that is the limit itself is too much."""
     for function in _judges(tree):
         for test in nodes_of(function, ast.If, ast.IfExp):
@@ -55,8 +63,7 @@ def limits_excluded(tree: ast.AST) -> Iterator[Suspect]:
             for compare, turned in _compares(test.test, False):
                 if _excludes(compare, refuses != turned):
                     yield (
-                        compare.lineno,
-                        About.GOAL_LIMIT,
+                        compare,
                         f"by `{unparse(compare)}`, a speed that is max_speed itself is refused: only one above it "
                         "is too fast",
                     )
@@ -92,19 +99,14 @@ def _is_speed(node: ast.expr) -> bool:
     return isinstance(node, ast.Attribute) and node.attr == "speed"
 
 
-@suspicion
-def aborted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CANCEL, ast.If)
+def aborted_when_cancelled(test: ast.If) -> Words:
     """Find abort() where a cancellation was asked for."""
-    for test in nodes_of(tree, ast.If):
-        if "is_cancel_requested" not in unparse(test.test):
-            continue
-        for call in (each for part in test.body for each in nodes_of(part, ast.Call)):
-            if isinstance(call.func, ast.Attribute) and call.func.attr == "abort":
-                yield (
-                    call.lineno,
-                    About.CANCEL,
-                    f"{unparse(call)} ends the goal as ABORTED; {unparse(call.func.value)}.canceled() belongs here",
-                )
+    if "is_cancel_requested" not in unparse(test.test):
+        return
+    for call in (each for part in test.body for each in nodes_of(part, ast.Call)):
+        if isinstance(call.func, ast.Attribute) and call.func.attr == "abort":
+            yield call, f"{unparse(call)} ends the goal as ABORTED; {unparse(call.func.value)}.canceled() belongs here"
 
 
 def _fields(tree: ast.AST) -> list[tuple[ast.expr, str | None]]:
@@ -113,15 +115,14 @@ def _fields(tree: ast.AST) -> list[tuple[ast.expr, str | None]]:
     return given + [(value, target.attr) for target, value in assigned(tree) if isinstance(target, ast.Attribute)]
 
 
-@suspicion
-def whole_distances(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FEEDBACK)
+def whole_distances(tree: ast.AST) -> Words:
     """Find a distance of a feedback that is made a whole number, where the field is a float."""
     for value, field in _fields(tree):
         name = last_name(value.func) if isinstance(value, ast.Call) else ""
         if field == "distance" and isinstance(value, ast.Call) and len(value.args) == 1 and name in ("round", "int"):
             yield (
-                value.lineno,
-                About.FEEDBACK,
+                value,
                 f"{unparse(value)} is a whole number, and the field distance is a float64, to which rclpy does "
                 "not convert it: the number itself, or float(...), can be sent",
             )
@@ -169,8 +170,8 @@ def _kept(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, dict[str, str]]]:
             yield function, {name: value for name, value in once.items() if name.startswith("self.")}
 
 
-@suspicion
-def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANEW)
+def lists_that_grow(tree: ast.AST) -> Words:
     """Find a list of the node that every goal makes longer, and that nothing empties."""
     for function, once in _kept(tree):
         for name in (each for each, value in once.items() if value in ("[]", "list()", "deque()")):
@@ -185,14 +186,13 @@ def lists_that_grow(tree: ast.AST) -> Iterator[Suspect]:
             if grows and not deleted and not any(method in EMPTIES for method, _ in uses):
                 yield (
                     grows[0],
-                    About.ANEW,
                     f"{name} keeps what earlier goals have put into it, and this line adds to it: make a new one where "
                     "a goal is executed",
                 )
 
 
-@suspicion
-def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANEW)
+def counters_that_go_on(tree: ast.AST) -> Words:
     """Find the index of a waypoint that goes on from goal to goal."""
     for function, once in _kept(tree):
         for node in nodes_of(function, ast.AugAssign):
@@ -200,8 +200,7 @@ def counters_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
             indexes = any(isinstance(each, ast.Subscript) and unparse(each.slice) == name for each in walk(function))
             if once.get(name, "").lstrip("-").isdigit() and indexes:
                 yield (
-                    node.lineno,
-                    About.ANEW,
+                    node,
                     f"{name} is {once[name]} for the first goal only, and goes on from there for the next one: set it "
                     f"to {once[name]} where a goal is executed",
                 )

@@ -6,9 +6,18 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, is_none, last_name, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    calls,
+    functions,
+    is_none,
+    last_name,
+    nodes_of,
+    unparse,
+)
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 LIMIT = "max_speed"
 
@@ -24,49 +33,44 @@ def _attributes(tree: ast.AST) -> tuple[ast.Attribute, ...]:
     return nodes_of(tree, ast.Attribute)
 
 
-@suspicion
-def never_refuses(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ACCEPTS_ALL, ast.Call)
+def never_refuses(call: ast.Call, tree: ast.AST) -> Words:
     """Find a goal callback that knows no answer but ACCEPT."""
-    for call, name in calls(tree):
-        given = next((each.value for each in call.keywords if each.arg == "goal_callback"), None)
-        if name != "ActionServer" or given is None:
-            continue
-        for function in (each for each in _judges(tree) if each.name == last_name(given)):
-            answers = {each.attr for each in _attributes(function)}
-            if "ACCEPT" in answers and "REJECT" not in answers:
-                yield function.lineno, About.ACCEPTS_ALL, f"{function.name} knows no answer but GoalResponse.ACCEPT"
+    name = last_name(call.func)
+    given = next((each.value for each in call.keywords if each.arg == "goal_callback"), None)
+    if name != "ActionServer" or given is None:
+        return
+    for function in (each for each in _judges(tree) if each.name == last_name(given)):
+        answers = {each.attr for each in _attributes(function)}
+        if "ACCEPT" in answers and "REJECT" not in answers:
+            yield function, f"{function.name} knows no answer but GoalResponse.ACCEPT"
 
 
-@suspicion
-def lists_are_never_none(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ACCEPTS_EMPTY)
+def lists_are_never_none(tree: ast.AST) -> Words:
     """Find a goal without waypoints that is looked for by None."""
     for function in _judges(tree):
         for node in nodes_of(function, ast.Compare):
             other = node.comparators[0]
             if last_name(node.left) == "waypoints" and is_none(other):
                 yield (
-                    node.lineno,
-                    About.ACCEPTS_EMPTY,
+                    node,
                     f"waypoints of a goal is a list, never None, so `{unparse(node)}` is always the same: a goal "
                     f"without waypoints has an empty list, `len({unparse(node.left)}) == 0`",
                 )
 
 
-@suspicion
-def signs_taken_away(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ACCEPTS_BACKWARDS)
+def signs_taken_away(tree: ast.AST) -> Words:
     """Find abs(speed) in an answer to a goal."""
     for function in _judges(tree):
         for call, name in calls(function):
             if name in ("abs", "fabs") and call.args and last_name(call.args[0]) == "speed":
-                yield (
-                    call.lineno,
-                    About.ACCEPTS_BACKWARDS,
-                    f"{unparse(call)} has no sign any more, so a negative speed counts as a positive one",
-                )
+                yield call, f"{unparse(call)} has no sign any more, so a negative speed counts as a positive one"
 
 
-@suspicion
-def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.OTHER_LIMIT)
+def limits_that_are_no_parameter(tree: ast.AST) -> Words:
     """Find a speed of a goal that is compared with a constant, and a parameter for its limit of another name."""
     declared = [
         (call.lineno, str(call.args[0].value))
@@ -75,7 +79,7 @@ def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
     ]
     if declared and any(_judges(tree)) and LIMIT not in (name for _, name in declared):
         line, name = declared[0]
-        yield line, About.OTHER_LIMIT, f"the node has a parameter `{name}`, and the task calls the limit `{LIMIT}`"
+        yield line, f"the node has a parameter `{name}`, and the task calls the limit `{LIMIT}`"
     known = named_numbers(tree)
     for function in _judges(tree):
         own = {unparse(target): value for target, value in assigned(tree)}
@@ -87,8 +91,7 @@ def limits_that_are_no_parameter(tree: ast.AST) -> Iterator[Suspect]:
                 value = number(own.get(unparse(side), side), known)
                 if value is not None and value > 0:
                     yield (
-                        node.lineno,
-                        About.OTHER_LIMIT,
+                        node,
                         f"`{unparse(node)[:70]}` takes the constant {value:g} for the limit: it is the parameter, "
                         f"self.get_parameter('{LIMIT}').value",
                     )

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 from typing import TypeGuard
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 BEFORE = ("followers", "goal_flags", "old_values")
 
@@ -43,8 +42,8 @@ def _asked_by(node: ast.AST) -> TypeGuard[ast.If]:
     return isinstance(node, ast.If) and bool(_asks(node.test))
 
 
-@suspicion
-def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CANCEL)
+def asked_under_a_condition(tree: ast.AST) -> Words:
     """Find `if index == 0 and goal_handle.is_cancel_requested`."""
     for test in (each for each in walk(tree) if _asked_by(each)):
         if not isinstance(test.test, ast.BoolOp) or not isinstance(test.test.op, ast.And):
@@ -52,11 +51,11 @@ def asked_under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
         others = " and ".join(unparse(each) for each in test.test.values if not _asks(each))
         leaves = any(isinstance(part, ast.Return | ast.Break) for part in test.body)
         if others and (leaves or "canceled" in called(test)):
-            yield test.lineno, About.CANCEL, f"a cancellation counts only if `{others[:80]}` is true, too"
+            yield test, f"a cancellation counts only if `{others[:80]}` is true, too"
 
 
-@suspicion
-def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.NO_PLACE)
+def velocities_for_places(tree: ast.AST) -> Words:
     """Find a program that reads the velocity of the odometry, and nowhere its position."""
     named = {each.attr: each for each in nodes_of(tree, ast.Attribute)}
     if "position" in named or not called(tree) & {"hypot", "sqrt", "dist", "norm", "atan2"}:
@@ -67,16 +66,15 @@ def velocities_for_places(tree: ast.AST) -> Iterator[Suspect]:
             owner = unparse(node.value)
             if owner.endswith(".twist.linear") or owner.removesuffix(".linear") in whole:
                 yield (
-                    node.lineno,
-                    About.NO_PLACE,
+                    node,
                     f"{unparse(node)} is a velocity of the robot, and nothing here reads where it is: "
                     "pose.pose.position of the odometry",
                 )
                 return
 
 
-@suspicion
-def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CANCEL)
+def loops_that_do_not_ask(tree: ast.AST) -> Words:
     """Find a loop that drives without asking for a cancellation, in a file that asks for it elsewhere."""
     lines, askers = _asks(tree), _askers(tree)
     if not lines:
@@ -94,11 +92,11 @@ def loops_that_do_not_ask(tree: ast.AST) -> Iterator[Suspect]:
         around = any(isinstance(n, Loop) and loop in walk(n) and lines[0] in _asks(n) for n in walk(tree))
         where = "for each waypoint, " if around else ""
         when = f"line {lines[0]} asks it {'once ' if around else ''}{where}outside of"
-        yield loop.lineno, About.CANCEL, f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
+        yield loop, f"the loop that drives does not ask goal_handle.{ASKS}; {when} this loop"
 
 
-@suspicion
-def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CANCEL)
+def breaks_of_the_inner_loop(tree: ast.AST) -> Words:
     """Find a cancelled goal that breaks out of the inner of two loops, where nothing ends the outer one."""
     for outer in (n for n in walk(tree) if isinstance(n, Loop)):
         for place, inner in enumerate(outer.body):
@@ -110,8 +108,7 @@ def breaks_of_the_inner_loop(tree: ast.AST) -> Iterator[Suspect]:
             ahead = any(_asks(part) for part in outer.body[:place])
             if left and not ahead and not any(isinstance(each, ast.If | ast.Break | ast.Return) for each in behind):
                 yield (
-                    left[0].lineno,
-                    About.CANCEL,
+                    left[0],
                     f"this break leaves the inner loop only, and the loop in line {outer.lineno} goes on with the next "
                     "waypoint: return from execute here, after canceled() and a Twist of zeros",
                 )
@@ -122,8 +119,8 @@ def _lines_of_init(tree: ast.AST) -> set[int]:
     return {line for each in functions for line in range(each.lineno, (each.end_lineno or each.lineno) + 1)}
 
 
-@suspicion
-def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.RESULT)
+def counts_that_go_on(tree: ast.AST) -> Words:
     """Find a Result, or a count for one, that is made in the constructor and counted up by every goal."""
     if not called(tree) & {"succeed"}:
         return  # it executes no goals
@@ -144,52 +141,43 @@ def counts_that_go_on(tree: ast.AST) -> Iterator[Suspect]:
             made_by = unparse(own[0].value)
             if made_by.rpartition(".")[2].startswith("Result("):
                 yield (
-                    own[0].lineno,
-                    About.RESULT,
+                    own[0],
                     f"{whole} is made once for all goals, and line {line} counts {field} on: {made_by} belongs in "
                     "the function that executes a goal",
                 )
         begun = made.get(name, [])
         if whole == "self" and len(begun) == 1 and begun[0].lineno in first and name in handed:
             yield (
-                begun[0].lineno,
-                About.RESULT,
+                begun[0],
                 f"{name} is set once for all goals, and line {line} counts it on: reset it where a goal is executed",
             )
 
 
-@suspicion
-def one_side_of_an_angle(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ONE_SIDE, ast.If)
+def one_side_of_an_angle(node: ast.If) -> Words:
     """Find `if turn < 0.3:` before the robot drives: an angle to the other side is always below that."""
-    for node in nodes_of(tree, ast.If):
-        if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
-            continue
-        left, limit = unparse(node.test.left), unparse(node.test.comparators[0])
-        drives = any(
-            unparse(target).endswith("linear.x") and unparse(value) not in ("0", "0.0")
-            for part in node.body
-            for target, value in assigned(part)
+    if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+        return
+    left, limit = unparse(node.test.left), unparse(node.test.comparators[0])
+    drives = any(
+        unparse(target).endswith("linear.x") and unparse(value) not in ("0", "0.0")
+        for part in node.body
+        for target, value in assigned(part)
+    )
+    angle = isinstance(node.test.left, ast.Name | ast.Attribute) and ANGLE.search(left)
+    if drives and angle and isinstance(node.test.ops[0], ast.Lt | ast.LtE) and not limit.startswith("-"):
+        yield (
+            f"{left} < {limit} is true for every negative {left}, too, however far to the right: compare abs({left})"
         )
-        angle = isinstance(node.test.left, ast.Name | ast.Attribute) and ANGLE.search(left)
-        if drives and angle and isinstance(node.test.ops[0], ast.Lt | ast.LtE) and not limit.startswith("-"):
-            yield (
-                node.lineno,
-                About.ONE_SIDE,
-                f"{left} < {limit} is true for every negative {left}, too, however far to the right: compare "
-                f"abs({left})",
-            )
 
 
-@suspicion
-def summed_places(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SUMMED_PLACE, ast.AugAssign)
+def summed_places(node: ast.AugAssign) -> Words:
     """Find a place that is a sum of velocities, where the odometry says the place itself."""
-    for node in nodes_of(tree, ast.AugAssign):
-        if not isinstance(node.op, ast.Add):
-            continue
-        if ".twist.linear" in unparse(node.value) and unparse(node.target).startswith("self."):
-            yield (
-                node.lineno,
-                About.SUMMED_PLACE,
-                f"{unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
-                "with it; the place in the frame odom is pose.pose.position of the message",
-            )
+    if not isinstance(node.op, ast.Add):
+        return
+    if ".twist.linear" in unparse(node.value) and unparse(node.target).startswith("self."):
+        yield (
+            f"{unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
+            "with it; the place in the frame odom is pose.pose.position of the message"
+        )

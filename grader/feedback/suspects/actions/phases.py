@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 
 def _turns(block: list[ast.stmt]) -> bool:
@@ -34,8 +34,8 @@ def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
             yield name, value
 
 
-@suspicion
-def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PHASE)
+def phases_that_stay_over(tree: ast.AST) -> Words:
     """Find a phase of turning that begins once, before the loop, and that the loop only leaves."""
     for name, value in _phases(tree):
         begins: list[tuple[ast.Assign, bool]] = []
@@ -52,8 +52,7 @@ def phases_that_stay_over(tree: ast.AST) -> Iterator[Suspect]:
             (end, _), before = ends[0], begins[-1][0]
             if isinstance(end.value, ast.Constant):
                 yield (
-                    end.lineno,
-                    About.PHASE,
+                    end,
                     f"{unparse(end)} ends the turning for good: nothing sets it back to "
                     f"{unparse(before.value)} for the next waypoint",
                 )

@@ -6,9 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import called, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 Loop = ast.While | ast.For | ast.AsyncFor
 SENDS = "publish_feedback"
@@ -38,8 +38,8 @@ def _drivers(tree: ast.AST, node: ast.AST) -> Iterator[Loop]:
                 yield loop
 
 
-@suspicion
-def outside_of_the_loop(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.RARE_FEEDBACK)
+def outside_of_the_loop(tree: ast.AST) -> Words:
     """Find feedback beside the loop that drives, where no loop that drives sends any."""
     if SENDS not in called(tree):
         return
@@ -50,15 +50,11 @@ def outside_of_the_loop(tree: ast.AST) -> Iterator[Suspect]:
             continue
         for call, name in calls(function):
             if name in sending:
-                yield (
-                    call.lineno,
-                    About.RARE_FEEDBACK,
-                    f"{name}() stands outside of the loop of line {drivers[0].lineno}, which drives the robot",
-                )
+                yield call, f"{name}() stands outside of the loop of line {drivers[0].lineno}, which drives the robot"
 
 
-@suspicion
-def under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.RARE_FEEDBACK)
+def under_a_condition(tree: ast.AST) -> Words:
     """Find the only call that sends feedback under a condition."""
     sent = [call for call, name in calls(tree) if name == SENDS]
     if len(sent) != 1:
@@ -67,4 +63,4 @@ def under_a_condition(tree: ast.AST) -> Iterator[Suspect]:
         node for node in nodes_of(tree, ast.If) if any(each is sent[0] for part in node.body for each in walk(part))
     ]
     if around and not CLOCK.search(unparse(around[-1].test)):  # the innermost one is walked to last
-        yield sent[0].lineno, About.RARE_FEEDBACK, f"{SENDS}() is called only if `{unparse(around[-1].test)[:80]}`"
+        yield sent[0], f"{SENDS}() is called only if `{unparse(around[-1].test)[:80]}`"

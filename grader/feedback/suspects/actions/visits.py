@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     functions,
@@ -17,8 +18,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 FIELD, CANCELLED = "visited", "is_cancel_requested"
 Loop = ast.While | ast.For
@@ -51,8 +52,8 @@ def _takes_time(statement: ast.stmt, drivers: set[str]) -> bool:
     return loops or bool(called(statement) & drivers)
 
 
-@suspicion
-def counted_on_departure(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.COUNTED)
+def counted_on_departure(tree: ast.AST) -> Words:
     """Find a count that goes up above what drives to the waypoint, in the loop over the waypoints."""
     names, drivers = _counts(tree), _drivers(tree)
     for loop in (each for each in walk(tree) if isinstance(each, Loop)):
@@ -69,42 +70,35 @@ def counted_on_departure(tree: ast.AST) -> Iterator[Suspect]:
                 driven = next((each for each in later if _takes_time(each, drivers)), None)
                 if grows and driven is not None:
                     yield (
-                        statement.lineno,
-                        About.COUNTED,
+                        statement,
                         f"`{unparse(statement)}` counts the waypoint before line {driven.lineno} drives to it: it "
                         "belongs below that, where the robot has arrived",
                     )
 
 
-@suspicion
-def counted_when_cancelled(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.COUNTED, ast.If)
+def counted_when_cancelled(test: ast.If) -> Words:
     """Find a number of visited waypoints that is made where a goal is cancelled, and is no count."""
-    for test in nodes_of(tree, ast.If):
-        if not any("canceled" in called(each) for each in test.body):
-            continue
-        for value in (each for part in test.body for each in _given(part)):
-            text = unparse(value)
-            if isinstance(value, ast.Call) and last_name(value.func) == "len":
-                yield (
-                    value.lineno,
-                    About.COUNTED,
-                    f"`{text}` is the number of all waypoints of the goal, visited or not",
-                )
-            elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add) and _is_one(value.right):
-                yield (
-                    value.lineno,
-                    About.COUNTED,
-                    f"`{text}` counts the waypoint to which the robot is still driving; `{unparse(value.left)}` "
-                    "have been visited",
-                )
+    if not any("canceled" in called(each) for each in test.body):
+        return
+    for value in (each for part in test.body for each in _given(part)):
+        text = unparse(value)
+        if isinstance(value, ast.Call) and last_name(value.func) == "len":
+            yield value, f"`{text}` is the number of all waypoints of the goal, visited or not"
+        elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add) and _is_one(value.right):
+            yield (
+                value,
+                f"`{text}` counts the waypoint to which the robot is still driving; `{unparse(value.left)}` "
+                "have been visited",
+            )
 
 
 def _is_one(node: ast.expr) -> bool:
     return isinstance(node, ast.Constant) and node.value == 1
 
 
-@suspicion
-def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.COUNTED)
+def counted_after_a_break(tree: ast.AST) -> Words:
     """Find an inner loop that a cancellation ends, where the loop over the waypoints goes on and counts."""
     names = _counts(tree)
     own = {function.name: function for function in functions(tree)}
@@ -123,10 +117,8 @@ def counted_after_a_break(tree: ast.AST) -> Iterator[Suspect]:
                 then = "" if leaves else f", and the loop of line {loop.lineno} goes on to the next one"
                 yield (
                     ended.line,
-                    About.COUNTED,
-                    f"{ended.what} when the goal is cancelled; then line {statement.lineno}, "
-                    f"`{unparse(statement)}`, counts the waypoint all the same{then}: ask for is_cancel_requested "
-                    "before that line, too",
+                    f"{ended.what} when the goal is cancelled; then line {statement.lineno}, `{unparse(statement)}`, "
+                    f"counts the waypoint all the same{then}: ask for is_cancel_requested before that line, too",
                 )
                 break
 

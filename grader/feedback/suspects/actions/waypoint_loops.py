@@ -5,8 +5,17 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    called,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 POINTS = ("waypoints", "points", "goals", "targets", "route", "path", "todo")
@@ -19,8 +28,8 @@ def _drives(tree: ast.AST) -> Iterator[ast.FunctionDef]:
             yield function
 
 
-@suspicion
-def flags_never_set_back(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.LEFT_EARLY)
+def flags_never_set_back(tree: ast.AST) -> Words:
     """Find `while not self.arrived` in a loop over waypoints, where the flag becomes True and never False again."""
     values: dict[str, set[object]] = {}
     for function in functions(tree):
@@ -35,8 +44,7 @@ def flags_never_set_back(tree: ast.AST) -> Iterator[Suspect]:
                         case ast.UnaryOp(op=ast.Not(), operand=ast.Attribute(value=ast.Name(id="self")) as flag):
                             if values.get(name := unparse(flag)) == {True}:
                                 yield (
-                                    inner.lineno,
-                                    About.LEFT_EARLY,
+                                    inner,
                                     f"{name} stays True from the first waypoint on, so `{unparse(node)}` is False "
                                     f"at once for the next: set {name} to False before this loop",
                                 )
@@ -63,8 +71,8 @@ def _one_less(node: ast.AST | None) -> bool:
     return False
 
 
-@suspicion
-def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.LEFT_EARLY)
+def left_in_the_first_round(tree: ast.AST) -> Words:
     """Find a return, or a break, that every round of a loop over waypoints comes to."""
     for function in _drives(tree):
         for loop in nodes_of(function, ast.For):
@@ -72,8 +80,7 @@ def left_in_the_first_round(tree: ast.AST) -> Iterator[Suspect]:
                 if isinstance(statement, ast.Return | ast.Break):
                     what = "return" if isinstance(statement, ast.Return) else "break"
                     yield (
-                        statement.lineno,
-                        About.LEFT_EARLY,
+                        statement,
                         f"this {what} ends the loop of line {loop.lineno} in its first iteration: it belongs after the "
                         "loop",
                     )

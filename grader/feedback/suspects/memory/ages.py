@@ -10,8 +10,8 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, nodes_of, set_to, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 OLDER, YOUNGER = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
@@ -22,23 +22,21 @@ SOON = 0.15  # [s] a limit that the messages of a sensor with ten a second pass 
 NANO = 1e9
 
 
-@suspicion
-def turned(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.AGE, ast.If)
+def turned(node: ast.If, tree: ast.AST) -> Words:
     """Find `if age > LIMIT:` before what uses the message, and `if age < LIMIT: return`."""
     values = set_to(tree)
-    for node in nodes_of(tree, ast.If):
-        drops, uses = isinstance(node.body[-1], LEAVES) and not _acts(node.body), _acts(node.body)
-        for test, holds in _parts(node.test, True):
-            asked = _older(test, values)
-            if asked is None or not (drops or uses):
-                continue
-            if (asked == holds) == uses:
-                yield (
-                    test.lineno,
-                    About.AGE,
-                    f"`{unparse(node.test)[:60]}` lets only old messages through, and drops the fresh ones, whose "
-                    "age is nearly 0: the comparison is the wrong way round",
-                )
+    drops, uses = isinstance(node.body[-1], LEAVES) and not _acts(node.body), _acts(node.body)
+    for test, holds in _parts(node.test, True):
+        asked = _older(test, values)
+        if asked is None or not (drops or uses):
+            continue
+        if (asked == holds) == uses:
+            yield (
+                test,
+                f"`{unparse(node.test)[:60]}` lets only old messages through, and drops the fresh ones, whose "
+                "age is nearly 0: the comparison is the wrong way round",
+            )
 
 
 @suspicion

@@ -5,27 +5,25 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import called, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 
-@suspicion
-def aliases(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ALIAS, ast.FunctionDef)
+def aliases(function: ast.FunctionDef) -> Words:
     """Find `grid = self.map` followed by `grid[...] = ...` in a function that publishes no map."""
-    for function in functions(tree):
-        for node in nodes_of(function, ast.Assign):
-            if len(node.targets) != 1:
-                continue
-            target, value = node.targets[0], node.value
-            if isinstance(target, ast.Name) and isinstance(value, ast.Attribute) and _own(value):
-                for changed in _changes(function, target.id, node.lineno):
-                    yield (
-                        changed.lineno,
-                        About.ALIAS,
-                        f"{unparse(changed)[:70]} changes {unparse(value)} itself, because {target.id} = "
-                        f"{unparse(value)} in line {node.lineno} makes no copy: {unparse(value)}.copy()",
-                    )
+    for node in nodes_of(function, ast.Assign):
+        if len(node.targets) != 1:
+            continue
+        target, value = node.targets[0], node.value
+        if isinstance(target, ast.Name) and isinstance(value, ast.Attribute) and _own(value):
+            for changed in _changes(function, target.id, node.lineno):
+                yield (
+                    changed,
+                    f"{unparse(changed)[:70]} changes {unparse(value)} itself, because {target.id} = "
+                    f"{unparse(value)} in line {node.lineno} makes no copy: {unparse(value)}.copy()",
+                )
 
 
 def _own(value: ast.Attribute) -> bool:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, functions, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 
-@suspicion
-def for_ever(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.FLAG_FOR_EVER)
+def for_ever(tree: ast.Module) -> Words:
     """Find a flag that chooses angular.z, is set to True in a callback of scans, and never to False again."""
     if ".ranges" not in unparse(tree):
         return
@@ -24,11 +24,7 @@ def for_ever(tree: ast.Module) -> Iterator[Suspect]:
         later = [(target, value) for function, target, value in values if function != "__init__"]
         ever = bool(later) and all(isinstance(value, ast.Constant) and value.value is True for _, value in later)
         if name.startswith("self.") and name in asked and ever and len(values) > len(later):
-            yield (
-                later[0][0].lineno,
-                About.FLAG_FOR_EVER,
-                f"{name} = True stays so for ever: set it back to False when what it is for is over",
-            )
+            yield later[0][0], f"{name} = True stays so for ever: set it back to False when what it is for is over"
 
 
 def _choosing(tree: ast.AST) -> Iterator[ast.expr]:

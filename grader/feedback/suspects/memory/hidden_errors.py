@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import called, last_name, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, called, last_name, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 ANY_ERROR = ("", "Exception", "BaseException", "TypeError", "AttributeError", "NameError", "ValueError", "IndexError")
 SAYING = frozenset({"error", "warning", "warn", "fatal", "info", "print", "print_exc", "exception"})
@@ -15,8 +14,8 @@ LOOPS = frozenset({"spin", "spin_once", "shutdown"})
 LOOKUPS = frozenset({"lookup_transform", "transform", "wait_for_transform"})
 
 
-@suspicion
-def hidden(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.HIDDEN)
+def hidden(tree: ast.AST) -> Words:
     """Find a handler that goes on after any error, or after one of the programmer's, and says nothing of it."""
     for node in walk(tree):
         inside = {name for statement in node.body for name in called(statement)} if isinstance(node, ast.Try) else LOOPS
@@ -31,4 +30,4 @@ def hidden(tree: ast.AST) -> Iterator[Suspect]:
                 continue
             way = "take it away" if not inside & LOOKUPS else "catch only what you expect, TransformException"
             said = f"{f'except {kind}'.strip()}: hides the errors of lines {lines}; {way}, and Python names the error"
-            yield handler.lineno, About.HIDDEN, said
+            yield handler, said

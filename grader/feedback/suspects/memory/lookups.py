@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, unparse
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 
-@suspicion
-def exchanged(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.EXCHANGED_FRAMES)
+def exchanged(tree: ast.AST) -> Words:
     """Find a lookup whose target is the frame of a message, and whose source is not."""
     frames = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith("header.frame_id")}
     for call, name in calls(tree):
@@ -24,8 +23,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
         of_a_message = [each in frames or each.endswith("header.frame_id") for each in (target, source)]
         if of_a_message == [True, False]:
             yield (
-                call.lineno,
-                About.EXCHANGED_FRAMES,
+                call,
                 f"lookup_transform({target}, {source}, ...): the frame into which points are taken comes first, that "
                 "of the message second; here they are exchanged, which gives the inverse",
             )

@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 # Parts of names that keep a first value on purpose.
 FIRST = ("start", "first", "begin", "origin", "home", "init", "zero", "ref", "from", "old", "last", "prev")
@@ -59,8 +59,8 @@ def _copies(function: ast.FunctionDef, tree: ast.AST) -> Iterator[tuple[str, ast
             yield from ((name, value, call.lineno) for name, value in zip(names, call.args, strict=False))
 
 
-@suspicion
-def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.OLD_POSE)
+def copied_before_a_loop(tree: ast.AST) -> Words:
     """Find a loop that drives by a copy of what a callback goes on setting."""
     set_by = _set_by(tree)
     for function in functions(tree):
@@ -85,76 +85,69 @@ def copied_before_a_loop(tree: ast.AST) -> Iterator[Suspect]:
                 verb = "are copies" if len(old) > 1 else "is a copy"
                 yield (
                     next(iter(old.values()))[1],
-                    About.OLD_POSE,
                     f"{words} {verb} of {whole}, made before the loop in line {loop.lineno}, which therefore goes on "
                     "with the values from before: read them again in every iteration",
                 )
                 break
 
 
-@suspicion
-def first_message_kept(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FIRST_KEPT, ast.FunctionDef)
+def first_message_kept(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find a callback that takes what it keeps from its first message only."""
-    for function in functions(tree):
-        message = {each.arg for each in function.args.args if each.arg != "self"}
-        for test in nodes_of(function, ast.If):
-            name = _tested_for_none(test.test)
-            inside = [each for part in test.body for each in walk(part)]
-            sets = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, name)]
-            if not name or _on_purpose(name) or not sets:
-                continue
-            others = [each for each in nodes_of(tree, ast.Assign) if _sets(each, name)]
-            anew = [each for each in others if each not in sets and unparse(each.value) != "None"]
-            if not anew and {each.id for each in nodes_of(sets[0].value, ast.Name)} & message:
-                yield (
-                    sets[0].lineno,
-                    About.FIRST_KEPT,
-                    f"self.{name} is set only while it is None, so {function.name} keeps its first message and passes "
-                    "over all later ones: set it with each message",
-                )
+    message = {each.arg for each in function.args.args if each.arg != "self"}
+    for test in nodes_of(function, ast.If):
+        name = _tested_for_none(test.test)
+        inside = [each for part in test.body for each in walk(part)]
+        sets = [each for each in inside if isinstance(each, ast.Assign) and _sets(each, name)]
+        if not name or _on_purpose(name) or not sets:
+            continue
+        others = [each for each in nodes_of(tree, ast.Assign) if _sets(each, name)]
+        anew = [each for each in others if each not in sets and unparse(each.value) != "None"]
+        if not anew and {each.id for each in nodes_of(sets[0].value, ast.Name)} & message:
+            yield (
+                sets[0],
+                f"self.{name} is set only while it is None, so {function.name} keeps its first message and passes "
+                "over all later ones: set it with each message",
+            )
 
 
-@suspicion
-def returns_when_set(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FIRST_KEPT, ast.FunctionDef)
+def returns_when_set(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find a callback that returns at once when it has kept a message before."""
-    for function in functions(tree):
-        message = {each.arg for each in function.args.args if each.arg != "self"}
-        for place, test in enumerate(function.body):
-            if not isinstance(test, ast.If) or unparse(test.body[-1]) not in ("return", "return None"):
-                continue
-            name = _tested_for_a_value(test.test)
-            behind = [node for part in function.body[place + 1 :] for node in walk(part)]
-            sets = [node for node in behind if isinstance(node, ast.Assign) and _sets(node, name)]
-            others = [node for node in nodes_of(tree, ast.Assign) if _sets(node, name)]
-            anew = [node for node in others if node not in sets and unparse(node.value) != "None"]
-            if not name or _on_purpose(name) or not sets or anew:
-                continue
-            if {node.id for node in nodes_of(sets[0].value, ast.Name)} & message:
-                yield (
-                    test.lineno,
-                    About.FIRST_KEPT,
-                    f"{function.name} returns here as soon as self.{name} is set, so it keeps its first message and "
-                    "passes over all later ones: set it with each message",
-                )
+    message = {each.arg for each in function.args.args if each.arg != "self"}
+    for place, test in enumerate(function.body):
+        if not isinstance(test, ast.If) or unparse(test.body[-1]) not in ("return", "return None"):
+            continue
+        name = _tested_for_a_value(test.test)
+        behind = [node for part in function.body[place + 1 :] for node in walk(part)]
+        sets = [node for node in behind if isinstance(node, ast.Assign) and _sets(node, name)]
+        others = [node for node in nodes_of(tree, ast.Assign) if _sets(node, name)]
+        anew = [node for node in others if node not in sets and unparse(node.value) != "None"]
+        if not name or _on_purpose(name) or not sets or anew:
+            continue
+        if {node.id for node in nodes_of(sets[0].value, ast.Name)} & message:
+            yield (
+                test,
+                f"{function.name} returns here as soon as self.{name} is set, so it keeps its first message and "
+                "passes over all later ones: set it with each message",
+            )
 
 
-@suspicion
-def set_by_default(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FIRST_KEPT, ast.FunctionDef)
+def set_by_default(function: ast.FunctionDef) -> Words:
     """Find a callback that keeps its message by `setdefault`, which keeps the first one."""
-    for function in functions(tree):
-        message = {each.arg for each in function.args.args if each.arg != "self"}
-        made = {name for t, v in assigned(function) if _names(v) & message for name in _names(t)}
-        for call, name in calls(function):
-            kept = isinstance(call.func, ast.Attribute) and unparse(call.func.value).startswith("self.")
-            if name != "setdefault" or not kept or len(call.args) != 2 or _is_empty(call.args[1]):
-                continue
-            if _names(call.args[1]) & (message | made) and not _on_purpose(unparse(call)):
-                yield (
-                    call.lineno,
-                    About.FIRST_KEPT,
-                    f"setdefault() sets what is not set yet, so {function.name} keeps its first message and passes "
-                    "over all later ones: [key] = value sets it with each message",
-                )
+    message = {each.arg for each in function.args.args if each.arg != "self"}
+    made = {name for t, v in assigned(function) if _names(v) & message for name in _names(t)}
+    for call, name in calls(function):
+        kept = isinstance(call.func, ast.Attribute) and unparse(call.func.value).startswith("self.")
+        if name != "setdefault" or not kept or len(call.args) != 2 or _is_empty(call.args[1]):
+            continue
+        if _names(call.args[1]) & (message | made) and not _on_purpose(unparse(call)):
+            yield (
+                call,
+                f"setdefault() sets what is not set yet, so {function.name} keeps its first message and passes "
+                "over all later ones: [key] = value sets it with each message",
+            )
 
 
 def _names(node: ast.AST) -> set[str]:

@@ -4,39 +4,34 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.planning.own_places import CORNER_X, CORNER_Y, X, Y
 from gz_course.grader.feedback.suspects.planning.ways import AIMED
 
 HEADINGS = re.compile(r"err|angle|diff|delta|turn|bearing|heading|yaw|theta", re.IGNORECASE)
 
 
-@suspicion
-def crossed(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL, ast.Call)
+def crossed(call: ast.Call) -> Words:
     """Find `hypot(x - pose.y, y - pose.x)`."""
-    for call, name in calls(tree):
-        if name not in (AIMED | {"hypot"}) or len(call.args) != 2:
-            continue
-        pairs = [(each.left, each.right) for each in call.args if isinstance(each, ast.BinOp) and _is_difference(each)]
-        axes = [tuple(_axis(side) for side in pair) for pair in pairs]
-        if axes in ([("x", "y"), ("y", "x")], [("y", "x"), ("x", "y")]):
-            yield (
-                call.lineno,
-                About.CELL,
-                f"{unparse(call)[:70]} subtracts y from x and x from y: x belongs to x, and y to y",
-            )
+    name = last_name(call.func)
+    if name not in (AIMED | {"hypot"}) or len(call.args) != 2:
+        return
+    pairs = [(each.left, each.right) for each in call.args if isinstance(each, ast.BinOp) and _is_difference(each)]
+    axes = [tuple(_axis(side) for side in pair) for pair in pairs]
+    if axes in ([("x", "y"), ("y", "x")], [("y", "x"), ("x", "y")]):
+        yield f"{unparse(call)[:70]} subtracts y from x and x from y: x belongs to x, and y to y"
 
 
 def _is_difference(node: ast.AST) -> bool:
     return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub)
 
 
-@suspicion
-def other_branch(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SIGN)
+def other_branch(tree: ast.AST) -> Words:
     """Find `if abs(error) < 0.5:` with a turn on the spot below it, and with the drive in the other branch."""
     for node in (each for each in nodes_of(tree, ast.If) if each.orelse):
         match node.test:
@@ -49,8 +44,7 @@ def other_branch(tree: ast.AST) -> Iterator[Suspect]:
                 continue
         if HEADINGS.search(unparse(error)) and _drives(large) and not _drives(small) and _turns(small):
             yield (
-                node.lineno,
-                About.SIGN,
+                node,
                 f"`{unparse(node.test)[:60]}`: the robot turns on the spot while {unparse(error)} is small, "
                 "and drives while it is large: the two branches, or < and >, are exchanged",
             )
@@ -65,29 +59,27 @@ def _turns(block: list[ast.stmt]) -> bool:
     return any(unparse(one).endswith("angular.z") for each in block for one, _ in assigned(each))
 
 
-@suspicion
-def without_heading(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SIGN, ast.FunctionDef)
+def without_heading(function: ast.FunctionDef) -> Words:
     """Find `error = atan2(goal_y - y, goal_x - x)`, by which angular.z turns, although no heading is taken off it."""
-    for function in functions(tree):
-        turns = [value for target, value in assigned(function) if unparse(target).endswith("angular.z")]
-        for target, value in assigned(function):
-            aimed = [call for call, name in calls(value) if name in AIMED and len(call.args) == 2]
-            if len(aimed) != 1 or not all(isinstance(each, ast.BinOp) for each in aimed[0].args):
-                continue
-            name = unparse(target)
-            inside = {id(each) for each in walk(aimed[0])}
-            taken_off = any(_is_difference(each) for each in walk(value) if id(each) not in inside)
-            later = any(_is_difference(each) and name in map(unparse, walk(each)) for each in walk(function)) or any(
-                unparse(each.target) == name for each in nodes_of(function, ast.AugAssign)
+    turns = [value for target, value in assigned(function) if unparse(target).endswith("angular.z")]
+    for target, value in assigned(function):
+        aimed = [call for call, name in calls(value) if name in AIMED and len(call.args) == 2]
+        if len(aimed) != 1 or not all(isinstance(each, ast.BinOp) for each in aimed[0].args):
+            continue
+        name = unparse(target)
+        inside = {id(each) for each in walk(aimed[0])}
+        taken_off = any(_is_difference(each) for each in walk(value) if id(each) not in inside)
+        later = any(_is_difference(each) and name in map(unparse, walk(each)) for each in walk(function)) or any(
+            unparse(each.target) == name for each in nodes_of(function, ast.AugAssign)
+        )
+        used = any(name in map(unparse, walk(each)) for each in turns)
+        if used and not taken_off and not later:
+            yield (
+                value,
+                f"{unparse(aimed[0])[:70]} is the direction of the goal in odom, and angular.z turns by it as "
+                "if the robot looked along x: subtract the heading of the robot, and wrap the difference",
             )
-            used = any(name in map(unparse, walk(each)) for each in turns)
-            if used and not taken_off and not later:
-                yield (
-                    value.lineno,
-                    About.SIGN,
-                    f"{unparse(aimed[0])[:70]} is the direction of the goal in odom, and angular.z turns by it as "
-                    "if the robot looked along x: subtract the heading of the robot, and wrap the difference",
-                )
 
 
 def _axis(node: ast.expr) -> str:
@@ -95,8 +87,8 @@ def _axis(node: ast.expr) -> str:
     return "x" if X.search(text) else "y" if Y.search(text) else ""
 
 
-@suspicion
-def without_corner(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL)
+def without_corner(tree: ast.AST) -> Words:
     """Find `(column + 0.5) * resolution` in a function that adds no corner, in a file that subtracts one from x."""
     subtracts = any(
         isinstance(node, ast.BinOp)
@@ -116,8 +108,7 @@ def without_corner(tree: ast.AST) -> Iterator[Suspect]:
                     right=ast.Name() | ast.Attribute() | ast.Constant(),
                 ):
                     yield (
-                        node.lineno,
-                        About.CELL,
+                        node,
                         f"{unparse(node)[:60]} is how far cell {unparse(cell)} is from the corner of the map: "
                         "add the corner to have a place in odom",
                     )

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 EMPTY = re.compile(r"^not |\bis None\b|^len\(.*\) (?:== 0|< 1)$|== \[\]$")
 
 
-@suspicion
-def finished_for_ever(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FLAG)
+def finished_for_ever(tree: ast.AST) -> Words:
     """Find a flag that is set where a search has found nothing, and that no line ever sets back."""
     for name, places in _flags(tree).items() if "OccupancyGrid" in unparse(tree) else ():
         if not _guards(tree, name):
@@ -25,16 +24,15 @@ def finished_for_ever(tree: ast.AST) -> Iterator[Suspect]:
                 test = unparse(node.test)
                 if place is not None and EMPTY.search(test) and name not in test and ".scan" not in test:
                     yield (
-                        place.lineno,
-                        About.FLAG,
+                        place,
                         f"{unparse(place)[:40]} is set as soon as `{test[:40]}` holds, and nothing sets it back: "
                         "if that is so at the first call, before a scan has come, the robot never drives; wait for a "
                         "scan before you search, and search again later",
                     )
 
 
-@suspicion
-def planned_once(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WAY)
+def planned_once(tree: ast.AST) -> Words:
     """Find a function that returns at once after its first call, by a flag or by a state that only it changes."""
     flags = _flags(tree)
     states: dict[str, list[tuple[str, str]]] = {}
@@ -51,44 +49,40 @@ def planned_once(tree: ast.AST) -> Iterator[Suspect]:
                 name = unparse(test)
                 own = [each for each in function.body if each.lineno in flags.get(name, ())]
                 if own:
-                    yield node.lineno, About.WAY, _once(function.name, unparse(own[0]))
+                    yield node, _once(function.name, unparse(own[0]))
                 match test:
                     case ast.Compare(left=left, ops=[ast.NotEq()], comparators=[ast.Constant(value=str()) as asked]):
                         given = states.get(unparse(left), [])
                         begun = {where for where, text in given if text == unparse(asked)}
                         other = [text for where, text in given if where == function.name and text != unparse(asked)]
                         if begun == {"__init__"} and other:
-                            yield node.lineno, About.WAY, _once(function.name, f"{unparse(left)} = {other[-1]}")
+                            yield node, _once(function.name, f"{unparse(left)} = {other[-1]}")
 
 
-@suspicion
-def kept_way(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WAY, ast.FunctionDef)
+def kept_way(function: ast.FunctionDef, tree: ast.AST) -> Words:
     """Find a function that returns while there is a way, and alone sets it: nothing takes the way away again."""
-    for function in functions(tree):
-        for node in (each for each in function.body if isinstance(each, ast.If)):
-            match node.test:
-                case ast.Attribute() as way if isinstance(node.body[-1], ast.Return) and len(node.body) == 1:
-                    name = unparse(way)
-                case _:
-                    continue
-            changed = any(
-                part in unparse(other)
-                for other in functions(tree)
-                if other.name != "__init__"
-                for part in (f"{name}.pop", f"{name}.clear", f"{name}.remove", f"del {name}", f"{name} = []")
+    for node in (each for each in function.body if isinstance(each, ast.If)):
+        match node.test:
+            case ast.Attribute() as way if isinstance(node.body[-1], ast.Return) and len(node.body) == 1:
+                name = unparse(way)
+            case _:
+                continue
+        changed = any(
+            part in unparse(other)
+            for other in functions(tree)
+            if other.name != "__init__"
+            for part in (f"{name}.pop", f"{name}.clear", f"{name}.remove", f"del {name}", f"{name} = []")
+        )
+        makers = {other.name for other in functions(tree) if any(unparse(one) == name for one, _ in assigned(other))}
+        read = any(f"in {name}:" in unparse(each) or f"{name}[" in unparse(each) for each in functions(tree))
+        if read and not changed and function.name in makers <= {function.name, "__init__"}:
+            yield (
+                node,
+                f"{function.name} returns while `{name}` holds anything, and nothing empties it: the first way is "
+                "kept for ever, also when the robot is at its end. Take out the cells that are reached, or plan "
+                "again each time",
             )
-            makers = {
-                other.name for other in functions(tree) if any(unparse(one) == name for one, _ in assigned(other))
-            }
-            read = any(f"in {name}:" in unparse(each) or f"{name}[" in unparse(each) for each in functions(tree))
-            if read and not changed and function.name in makers <= {function.name, "__init__"}:
-                yield (
-                    node.lineno,
-                    About.WAY,
-                    f"{function.name} returns while `{name}` holds anything, and nothing empties it: the first way is "
-                    "kept for ever, also when the robot is at its end. Take out the cells that are reached, or plan "
-                    "again each time",
-                )
 
 
 def _once(name: str, line: str) -> str:

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.steering.sleeps import reached
 
 FADES = 0.998  # a factor at which half is left after a minute or more
@@ -17,8 +17,8 @@ EMPTIES = frozenset({"clear", "fill"})
 TAKEN_OUT = frozenset({"clear", "remove", "pop", "popleft"})
 
 
-@suspicion
-def forgets(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FORGETS)
+def forgets(tree: ast.AST) -> Words:
     """Find an array or a dictionary that a callback makes anew each time as `__init__` did."""
     own = {node.name for node in nodes_of(tree, ast.ClassDef)}
     begun = {
@@ -50,15 +50,14 @@ def forgets(tree: ast.AST) -> Iterator[Suspect]:
             )
             if name in begun and used:
                 yield (
-                    statement.lineno,
-                    About.FORGETS,
+                    statement,
                     f"{unparse(statement)[:60]} sets {name} back in each call of {function.name}, so all that was "
                     "seen before is forgotten: make it once, in __init__",
                 )
 
 
-@suspicion
-def fades(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FADES)
+def fades(tree: ast.AST) -> Words:
     """Find an array all of which a callback makes smaller each time: `self.odds *= 0.97`."""
     known = named_numbers(tree)
     arrays = {unparse(one) for one, value in assigned(tree) if _holds_much(value)}
@@ -74,15 +73,14 @@ def fades(tree: ast.AST) -> Iterator[Suspect]:
             name = unparse(whole)
             if name in arrays and given is not None and 0 < given < FADES:
                 yield (
-                    node.lineno,
-                    About.FADES,
+                    node,
                     f"{unparse(node)[:60]} multiplies all of {name} by {given:g} in each {function.name}, so "
                     "what is not seen again fades: change only the cells that are seen",
                 )
 
 
-@suspicion
-def short_memory(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.FADES)
+def short_memory(tree: ast.AST) -> Words:
     """Find a deque of a few scans, which a callback of scans fills and from which a map is drawn."""
     callbacks = set(re.findall(r"LaserScan, .*?self\.(\w+)", unparse(tree)))
     filled = {
@@ -99,8 +97,7 @@ def short_memory(tree: ast.AST) -> Iterator[Suspect]:
         limit = next((each.value for each in getattr(value, "keywords", []) if each.arg == "maxlen"), None)
         if limit is not None and name in (filled & looped) - emptied:
             yield (
-                target.lineno,
-                About.FADES,
+                target,
                 f"{unparse(value)} keeps the last scans only ({unparse(limit)}), so the map forgets what was "
                 "seen before: count the hits and passes of every scan once, and keep the counts",
             )

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 UNKNOWN = ("-1", "UNKNOWN", "self.UNKNOWN", "unknown")
 SIDES = 3  # at least, of the four neighbours of a cell
 
 
-@suspicion
-def unknown_on_all_sides(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WAY)
+def unknown_on_all_sides(tree: ast.AST) -> Words:
     """Find `all(value(cell) == -1 for cell in neighbours)`, or as many comparisons joined by `and`."""
     if "OccupancyGrid" not in unparse(tree):
         return
@@ -29,11 +28,9 @@ def unknown_on_all_sides(tree: ast.AST) -> Iterator[Suspect]:
                 continue
         if asked and id(node) not in denied:
             yield (
-                node.lineno,
-                About.WAY,
-                f"`{unparse(node)[:80]}` asks for unknown cells on every side, and a free cell that a ray has "
-                "reached has a free one on the side where the ray came from: one unknown neighbour makes a frontier, "
-                "any(...)",
+                node,
+                f"`{unparse(node)[:80]}` asks for unknown cells on every side, and a free cell that a ray has reached "
+                "has a free one on the side where the ray came from: one unknown neighbour makes a frontier, any(...)",
             )
 
 

@@ -3,41 +3,37 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 NAMES = frozenset({"heappush", "put"})
 
 
-@suspicion
-def other_first(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SEARCH, ast.FunctionDef)
+def other_first(function: ast.FunctionDef) -> Words:
     """Find `heappush(heap, (cell, cost))` and `heappush(heap, (-cost, cell))`."""
-    for function in functions(tree):
-        values = {unparse(target): value for target, value in assigned(function)}
-        keys = _keys(function)
-        for call, name in calls(function):
-            pushed = call.args[-1] if name in NAMES and call.args else None
-            if not isinstance(pushed, ast.Tuple) or len(pushed.elts) < 2 or not _in_a_search(function, call):
-                continue
-            first, rest = pushed.elts[0], pushed.elts[1:]
-            texts = [unparse(each) for each in (pushed, first)]
-            if _negative(first, values):
-                yield (
-                    call.lineno,
-                    About.SEARCH,
-                    f"{texts[0]} is put into a heap with {texts[1]}, a cost with a minus, and a heap gives out the "
-                    "least first: the search goes to the farthest cells first; put the cost itself in front",
-                )
-            elif (isinstance(first, ast.Tuple) or texts[1] in keys) and any(_is_a_cost(each, values) for each in rest):
-                yield (
-                    call.lineno,
-                    About.SEARCH,
-                    f"{texts[0]} begins with the cell {texts[1]}, and a heap is ordered by what stands first: the "
-                    "search goes to the lowest row or column first, not to the nearest cell; put the cost in front",
-                )
+    values = {unparse(target): value for target, value in assigned(function)}
+    keys = _keys(function)
+    for call, name in calls(function):
+        pushed = call.args[-1] if name in NAMES and call.args else None
+        if not isinstance(pushed, ast.Tuple) or len(pushed.elts) < 2 or not _in_a_search(function, call):
+            continue
+        first, rest = pushed.elts[0], pushed.elts[1:]
+        texts = [unparse(each) for each in (pushed, first)]
+        if _negative(first, values):
+            yield (
+                call,
+                f"{texts[0]} is put into a heap with {texts[1]}, a cost with a minus, and a heap gives out the "
+                "least first: the search goes to the farthest cells first; put the cost itself in front",
+            )
+        elif (isinstance(first, ast.Tuple) or texts[1] in keys) and any(_is_a_cost(each, values) for each in rest):
+            yield (
+                call,
+                f"{texts[0]} begins with the cell {texts[1]}, and a heap is ordered by what stands first: the "
+                "search goes to the lowest row or column first, not to the nearest cell; put the cost in front",
+            )
 
 
 def _in_a_search(function: ast.FunctionDef, call: ast.Call) -> bool:

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 WAY = re.compile(r"path|way|route|plan|frontier|goal|target", re.IGNORECASE)
@@ -18,22 +18,20 @@ CELL = 0.1  # [m]
 DISTANCES = ("hypot", "dist", "distance", "norm")
 
 
-@suspicion
-def drives_without_a_way(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.BLIND, ast.If)
+def drives_without_a_way(node: ast.If, tree: ast.Module) -> Words:
     """Find `linear.x = 0.3` in the branch for a robot that has no way to follow."""
     known = named_numbers(tree)
-    for node in nodes_of(tree, ast.If):
-        there = _asks_for_a_way(node.test)
-        for each in (node.orelse if there else node.body) if there is not None else ():
-            for target, value in assigned(each):
-                speed = number(value, known)
-                if unparse(target).endswith("linear.x") and speed is not None and speed > 0:
-                    yield (
-                        value.lineno,
-                        About.BLIND,
-                        f"linear.x is {speed:g} where the robot has no way (line {node.lineno}, "
-                        f"`{unparse(node.test)[:60]}`), so it drives ahead without looking where: stand, or turn",
-                    )
+    there = _asks_for_a_way(node.test)
+    for each in (node.orelse if there else node.body) if there is not None else ():
+        for target, value in assigned(each):
+            speed = number(value, known)
+            if unparse(target).endswith("linear.x") and speed is not None and speed > 0:
+                yield (
+                    value,
+                    f"linear.x is {speed:g} where the robot has no way (line {node.lineno}, "
+                    f"`{unparse(node.test)[:60]}`), so it drives ahead without looking where: stand, or turn",
+                )
 
 
 def _asks_for_a_way(test: ast.expr) -> bool | None:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.planning.own_places import CORNER_X, CORNER_Y
 
 OF_X, OF_Y = re.compile(r"(?:\b|_)[a-z]?x\b"), re.compile(r"(?:\b|_)[a-z]?y\b")
@@ -16,8 +15,8 @@ ROWS_FIRST = re.compile(r"\((?:\w+\.)*(?:height|h|rows|n_?rows), (?:\w+\.)*(?:wi
 COLUMNS_FIRST = re.compile(r"\((?:\w+\.)*(?:width|w|cols|columns), (?:\w+\.)*(?:height|h|rows)\)", re.IGNORECASE)
 
 
-@suspicion
-def exchanged(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL)
+def exchanged(tree: ast.AST) -> Words:
     """Find `x0 + (j + 0.5) * size`, where j was made of y, and `grid[i, j]`, where i was, of an array of rows."""
     text = unparse(tree)
     rows_first = bool(ROWS_FIRST.search(text)) and not COLUMNS_FIRST.search(text)
@@ -31,8 +30,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
                     made = {kinds[name] for name in _names(rest) if name in kinds}
                     if known and len(made) == 1 and made != {of}:
                         yield (
-                            node.lineno,
-                            About.CELL,
+                            node,
                             f"{unparse(node)[:60]} makes {of} of a number of cells that was made of {made.pop()}",
                         )
                 case ast.Subscript(slice=ast.Tuple(elts=[first, second])) if rows_first:
@@ -40,8 +38,7 @@ def exchanged(tree: ast.AST) -> Iterator[Suspect]:
                     other = {kinds[name] for name in _names(second) if name in kinds}
                     if made == {"x"} and other == {"y"}:
                         yield (
-                            node.lineno,
-                            About.CELL,
+                            node,
                             f"{unparse(node)[:60]} has the number of cells along x first, but the array has its "
                             "rows first, which lie along y: the index is [row, column]",
                         )

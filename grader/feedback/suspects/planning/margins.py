@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 CELL = 0.1  # [m]
@@ -38,8 +38,8 @@ def margins(tree: ast.Module) -> Iterator[Suspect]:
             )
 
 
-@suspicion
-def widened_unknown(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WIDE)
+def widened_unknown(tree: ast.AST) -> Words:
     """Find walls that are widened together with what is unknown, which closes every way to a frontier."""
     if "OccupancyGrid" not in unparse(tree):
         return
@@ -51,8 +51,7 @@ def widened_unknown(tree: ast.AST) -> Iterator[Suspect]:
             match node.test:
                 case ast.Compare(ops=[ast.NotEq()], comparators=[free]) if unparse(free) in NOTHING:
                     yield (
-                        node.lineno,
-                        About.WIDE,
+                        node,
                         f"`{unparse(node.test)[:60]}` is true for unknown cells, too, and they are widened like "
                         "walls, so no free cell beside an unknown one can be reached: widen the occupied cells only",
                     )

@@ -6,9 +6,9 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 CORNER_X = re.compile(
     r"\b(?:left|ox|x0|min_?x|x_?min|origin_?x|x_?origin|corner_?x|origin\.position\.x)\b", re.IGNORECASE
@@ -23,8 +23,8 @@ HEIGHTS = re.compile(r"(?:^|[._])(?:height|h|rows|n_?rows|grid_height|map_height
 PAIRS = ((X, Y), (re.compile(r"^(?:row|r|cy|j)$"), re.compile(r"^(?:col|column|c|cx|i)$")))
 
 
-@suspicion
-def corner_added(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL)
+def corner_added(tree: ast.AST) -> Words:
     """Find `(x + origin_x) / resolution` where origin_x is sent as the origin of the map: it must be subtracted."""
     sent = {
         last_name(value) for target, value in assigned(tree) if re.search(r"origin\.position\.[xy]$", unparse(target))
@@ -35,8 +35,7 @@ def corner_added(tree: ast.AST) -> Iterator[Suspect]:
                 for point, corner in ((one, other), (other, one)):
                     if last_name(corner) in sent and last_name(point) not in sent:
                         yield (
-                            node.lineno,
-                            About.CELL,
+                            node,
                             f"{unparse(node)[:60]} adds the corner of the map, {unparse(corner)}: a cell is "
                             "counted from the corner, so subtract it",
                         )
@@ -49,27 +48,24 @@ def _part(node: ast.expr) -> tuple[str, str]:
     return "", ""
 
 
-@suspicion
-def other_stride(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.STRIDE, ast.BinOp)
+def other_stride(node: ast.BinOp) -> Words:
     """Find `row * height + column`, by which cells of different rows share a place."""
-    for node in walk(tree):
-        match node:
-            case ast.BinOp(
-                left=ast.BinOp(left=one, op=ast.Mult(), right=other), op=ast.Add(), right=ast.Name() | ast.Attribute()
-            ):
-                names = (unparse(one), unparse(other)), (unparse(other), unparse(one))
-                for row, length in names:
-                    if ROWS.search(row) and HEIGHTS.search(length):
-                        yield (
-                            node.lineno,
-                            About.STRIDE,
-                            f"{unparse(node)[:60]} multiplies the row by the number of rows: a row is width cells "
-                            f"long, so the place is {row} * width + column",
-                        )
+    match node:
+        case ast.BinOp(
+            left=ast.BinOp(left=one, op=ast.Mult(), right=other), op=ast.Add(), right=ast.Name() | ast.Attribute()
+        ):
+            names = (unparse(one), unparse(other)), (unparse(other), unparse(one))
+            for row, length in names:
+                if ROWS.search(row) and HEIGHTS.search(length):
+                    yield (
+                        f"{unparse(node)[:60]} multiplies the row by the number of rows: a row is width cells "
+                        f"long, so the place is {row} * width + column"
+                    )
 
 
-@suspicion
-def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.POSE)
+def unpacked_otherwise(tree: ast.AST) -> Words:
     """Find `x, yaw, y = self.pose` where `self.pose = (p.x, p.y, heading)`."""
     kept: dict[str, set[tuple[str, ...]]] = {}
     for owner, value in assigned_wholes(tree):
@@ -84,8 +80,7 @@ def unpacked_otherwise(tree: ast.AST) -> Iterator[Suspect]:
             name in ("x", "y") and name in order and order[place] != name for place, name in enumerate(names)
         ):
             yield (
-                node.lineno,
-                About.POSE,
+                node,
                 f"{unparse(node)} takes the parts in another order than that in which they are kept: "
                 f"{', '.join(each or '...' for each in order)}",
             )
@@ -98,8 +93,8 @@ def assigned_wholes(tree: ast.AST) -> Iterator[tuple[str, ast.Tuple]]:
             yield from ((each.attr, node.value) for each in node.targets if isinstance(each, ast.Attribute))
 
 
-@suspicion
-def other_order(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL)
+def other_order(tree: ast.AST) -> Words:
     """Find `self.index(pose[1], pose[0])` and `self.index(y, x)` of a function that takes x first."""
     own = {each.name: [one.arg for one in each.args.args if one.arg != "self"] for each in functions(tree)}
     for call, name in calls(tree):
@@ -114,51 +109,44 @@ def other_order(tree: ast.AST) -> Iterator[Suspect]:
                     wrong = wrong or bool(other.search(texts[0]) and one.search(texts[1]))
             if wrong:
                 yield (
-                    call.lineno,
-                    About.CELL,
+                    call,
                     f"{unparse(call)[:60]} gives {name} its arguments in the other order: it takes "
                     f"({takes[place]}, {takes[place + 1]})",
                 )
 
 
-@suspicion
-def corner_minus_point(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL, ast.BinOp)
+def corner_minus_point(node: ast.BinOp) -> Words:
     """Find `(BOTTOM - y) / RESOLUTION`, which is negative for every point in the map."""
-    for node in walk(tree):
-        match node:
-            case ast.BinOp(left=ast.BinOp(left=point, op=ast.Div() | ast.FloorDiv()), op=ast.Sub(), right=corner):
-                text, other = unparse(corner), unparse(point)
-                if (CORNER_X.search(text) and X.search(other)) or (CORNER_Y.search(text) and Y.search(other)):
-                    yield (
-                        node.lineno,
-                        About.CELL,
-                        f"{unparse(node)[:60]} subtracts the corner [m] from a number of cells: subtract first, "
-                        f"then divide, ({other} - {text}) / resolution",
-                    )
-            case ast.BinOp(left=ast.BinOp(left=corner, op=ast.Sub(), right=point), op=ast.Div() | ast.FloorDiv()):
-                text, other = unparse(corner), unparse(point)
-                x, y = bool(CORNER_X.search(text)), bool(CORNER_Y.search(text))
-                if (x and X.search(other)) or (y and Y.search(other)):
-                    yield (
-                        node.lineno,
-                        About.CELL,
-                        f"{unparse(node)[:60]} is negative for every point in the map: it is the point minus the "
-                        f"corner, ({other} - {text})",
-                    )
+    match node:
+        case ast.BinOp(left=ast.BinOp(left=point, op=ast.Div() | ast.FloorDiv()), op=ast.Sub(), right=corner):
+            text, other = unparse(corner), unparse(point)
+            if (CORNER_X.search(text) and X.search(other)) or (CORNER_Y.search(text) and Y.search(other)):
+                yield (
+                    f"{unparse(node)[:60]} subtracts the corner [m] from a number of cells: subtract first, "
+                    f"then divide, ({other} - {text}) / resolution"
+                )
+        case ast.BinOp(left=ast.BinOp(left=corner, op=ast.Sub(), right=point), op=ast.Div() | ast.FloorDiv()):
+            text, other = unparse(corner), unparse(point)
+            x, y = bool(CORNER_X.search(text)), bool(CORNER_Y.search(text))
+            if (x and X.search(other)) or (y and Y.search(other)):
+                yield (
+                    f"{unparse(node)[:60]} is negative for every point in the map: it is the point minus the "
+                    f"corner, ({other} - {text})"
+                )
 
 
-@suspicion
-def axes_of_cells(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.CELL, ast.BinOp)
+def axes_of_cells(node: ast.BinOp) -> Words:
     """Find `x0 + (row + 0.5) * resolution`: x grows with the column."""
-    for node in nodes_of(tree, ast.BinOp):
-        if not isinstance(node.op, ast.Add):
-            continue
-        corner, rest = unparse(node.left), unparse(node.right)
-        if not isinstance(node.right, ast.BinOp) or not isinstance(node.right.op, ast.Mult):
-            continue
-        for pattern, wrong, right, axis in (
-            (CORNER_X, ROW, COLUMN, "x grows with the column, y with the row"),
-            (CORNER_Y, COLUMN, ROW, "y grows with the row, x with the column"),
-        ):
-            if pattern.search(corner) and wrong.search(rest) and not right.search(rest):
-                yield node.lineno, About.CELL, f"{unparse(node)[:60]} exchanges rows and columns: {axis}"
+    if not isinstance(node.op, ast.Add):
+        return
+    corner, rest = unparse(node.left), unparse(node.right)
+    if not isinstance(node.right, ast.BinOp) or not isinstance(node.right.op, ast.Mult):
+        return
+    for pattern, wrong, right, axis in (
+        (CORNER_X, ROW, COLUMN, "x grows with the column, y with the row"),
+        (CORNER_Y, COLUMN, ROW, "y grows with the row, x with the column"),
+    ):
+        if pattern.search(corner) and wrong.search(rest) and not right.search(rest):
+            yield f"{unparse(node)[:60]} exchanges rows and columns: {axis}"

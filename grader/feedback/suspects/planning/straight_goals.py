@@ -4,19 +4,27 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, calls, functions, last_name, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    called,
+    calls,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+)
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 NEAREST = frozenset({"min", "argmin", "sorted", "argsort", "sort"})
 DISTANCE = re.compile(r"\bhypot\(|\bnorm\(|\bdist(?:ance)?\(|\*\* 2")
 TAKES = frozenset({"pop", "popleft", "heappop", "get", "get_nowait"})
 
 
-@suspicion
-def straight_goals(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.STRAIGHT)
+def straight_goals(tree: ast.AST) -> Words:
     """Find the nearest of several cells as the crow flies, where no loop takes cells out of a queue."""
     loops = nodes_of(tree, ast.While, ast.For)
     if any(called(loop) & TAKES and called(loop) & {"append", "heappush", "put", "add"} for loop in loops):
@@ -36,8 +44,7 @@ def straight_goals(tree: ast.AST) -> Iterator[Suspect]:
             own = any(one.name in keys and DISTANCE.search(unparse(one)) for one in functions(tree))
             if "ranges" not in text and (DISTANCE.search(text) or text in distances or own):
                 yield (
-                    call.lineno,
-                    About.STRAIGHT,
+                    call,
                     f"{unparse(call)[:60]} takes the goal that is nearest in a straight line, and nothing searches "
                     "a way to it: a wall may stand between; search through free cells, breadth first",
                 )

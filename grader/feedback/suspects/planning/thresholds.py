@@ -8,16 +8,16 @@ from collections.abc import Iterator
 from typing import TypeGuard
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 COUNTS = re.compile(r"hit|pass|free|miss|seen|count|visit|evidence|score|odds", re.IGNORECASE)
 MANY = 10  # observations, after which a scanner has turned elsewhere
 
 
-@suspicion
-def many_observations(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.THRESHOLD)
+def many_observations(tree: ast.Module) -> Words:
     """Find `self.passes > 60`, by which a cell that was seen 60 times is still unknown."""
     if "OccupancyGrid" not in unparse(tree):
         return
@@ -34,15 +34,14 @@ def many_observations(tree: ast.Module) -> Iterator[Suspect]:
         scanned = isinstance(counted, ast.Attribute | ast.Subscript) and COUNTS.search(text)
         if least is not None and least >= MANY and scanned and "len(" not in text:
             yield (
-                node.lineno,
-                About.THRESHOLD,
+                node,
                 f"{unparse(node)[:60]} asks for {least:g} observations of a cell, and most cells are seen less "
                 "often: decide by which of hits and passes are more, from the first one on",
             )
 
 
-@suspicion
-def free_again(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.ERASED)
+def free_again(tree: ast.Module) -> Words:
     """Find `grid[hits > 0] = 100` before `grid[passes > 0] = 0`, where walls that rays have passed become free."""
     if "OccupancyGrid" not in unparse(tree):
         return
@@ -66,8 +65,7 @@ def free_again(tree: ast.Module) -> Iterator[Suspect]:
                     and not _counted(mask) & _counted(first) - _counted(grid)
                 ):
                     yield (
-                        statement.lineno,
-                        About.ERASED,
+                        statement,
                         f"`{unparse(statement)[:70]}` comes after line {line}, `{unparse(first)[:50]}`, which "
                         "makes cells occupied: where both hold, as in walls that some ray has passed, the later one "
                         "counts, so they are free: exchange the two lines",

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, calls, functions, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.planning.ways import SHORTENS, TURNS_ROUND, never_shortened
 
 BEFORE = ("closed_gates",)
@@ -15,8 +14,8 @@ BEFORE = ("closed_gates",)
 COLLECTS = frozenset({"append", "insert", "appendleft"})
 
 
-@suspicion
-def ends_of_a_way(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.WAY)
+def ends_of_a_way(tree: ast.Module) -> Words:
     """Find a file that reads only the first, or only the last, cell of a way that it searched from start to goal."""
     if any(never_shortened(tree)):
         return  # which says more
@@ -39,15 +38,13 @@ def ends_of_a_way(tree: ast.Module) -> Iterator[Suspect]:
                 continue
             if kinds == {"0"}:
                 yield (
-                    read[0].lineno,
-                    About.WAY,
+                    read[0],
                     f"{way}[0] is the first cell of the way, in which the robot stands already, so it has no "
                     "direction to steer to: steer to a cell further along, and take out those that are reached",
                 )
             elif kinds == {"-1"}:
                 yield (
-                    read[0].lineno,
-                    About.WAY,
+                    read[0],
                     f"{way}[-1] is the end of the way, and the robot steers straight to it, through what the way goes "
                     "round: follow the cells of the way one after another",
                 )
@@ -70,34 +67,30 @@ def _follows_back(function: ast.FunctionDef) -> bool:
     )
 
 
-@suspicion
-def other_end_taken(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WAY, ast.While, ast.If)
+def other_end_taken(node: ast.While | ast.If) -> Words:
     """Find `self.way.pop()` after a test of `self.way[0]`: the last cell is taken out, not the one that is reached."""
-    for node in nodes_of(tree, ast.While, ast.If):
-        for call, name in (pair for part in node.body for pair in calls(part)):
-            way = unparse(call.func).rpartition(".")[0]
-            whole = unparse(node.test)
-            if name == "pop" and not call.args and f"{way}[0]" in whole and f"{way}[-1]" not in whole:
-                yield (
-                    call.lineno,
-                    About.WAY,
-                    f"{unparse(call)} takes the last cell out of the way, and `{whole[:50]}` is about the first "
-                    f"one: {way}.pop(0) takes out what is reached",
-                )
+    for call, name in (pair for part in node.body for pair in calls(part)):
+        way = unparse(call.func).rpartition(".")[0]
+        whole = unparse(node.test)
+        if name == "pop" and not call.args and f"{way}[0]" in whole and f"{way}[-1]" not in whole:
+            yield (
+                call,
+                f"{unparse(call)} takes the last cell out of the way, and `{whole[:50]}` is about the first "
+                f"one: {way}.pop(0) takes out what is reached",
+            )
 
 
-@suspicion
-def left_in_the_first_pass(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WAY, ast.ClassDef)
+def left_in_the_first_pass(owner: ast.ClassDef) -> Words:
     """Find a loop over a way that returns, or breaks, in its first pass whatever the cell is."""
-    for owner in nodes_of(tree, ast.ClassDef):
-        ways = {unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}
-        for loop in nodes_of(owner, ast.For):
-            early = any(isinstance(each, ast.Continue) for each in walk(loop))
-            if unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
-                yield (
-                    loop.lineno,
-                    About.WAY,
-                    f"the loop over {unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
-                    "it always takes the first cell of the way, in which the robot stands: a condition must say which "
-                    "cell is far enough",
-                )
+    ways = {unparse(target) for target, value in assigned(owner) if _is_a_list(target, value)}
+    for loop in nodes_of(owner, ast.For):
+        early = any(isinstance(each, ast.Continue) for each in walk(loop))
+        if unparse(loop.iter) in ways and isinstance(loop.body[-1], ast.Return | ast.Break) and not early:
+            yield (
+                loop,
+                f"the loop over {unparse(loop.iter)} ends in its first pass (line {loop.body[-1].lineno}), so "
+                "it always takes the first cell of the way, in which the robot stands: a condition must say which "
+                "cell is far enough",
+            )

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, called, children, nodes_of, set_to, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, children, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 INCREMENT = "angle_increment"
 OFFSETS = re.compile(r"\bangle_m(?:in|ax)\b")
@@ -18,8 +17,8 @@ FEWEST_DEGREES, MOST_DEGREES = 10, 360  # a number of degrees that is no angle i
 RADIANS = re.compile(r"\bangle_(?:min|max|increment)\b|\batan2\b|\barctan2\b")
 
 
-@suspicion
-def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.BEARING)
+def from_ray_zero(tree: ast.Module) -> Words:
     """Find a bearing that is `i * angle_increment`, with no first angle, and the number of a ray without one."""
     if OFFSETS.search(unparse(tree)):
         return
@@ -38,7 +37,6 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
         if (by_hand := _degree_for_each_ray(node, numbers)) and not _shifted(node, parent, summed):
             yield (
                 by_hand,
-                About.BEARING,
                 f"{unparse(node)[:60]} takes the number of a ray for its bearing in degrees, counted from ahead: "
                 "ray 0 looks to angle_min, and ray i to angle_min + i * angle_increment",
             )
@@ -53,8 +51,7 @@ def from_ray_zero(tree: ast.Module) -> Iterator[Suspect]:
         if not (counted or found) or _shifted(node, parent, summed) or (found and _sum(node.left)):
             continue
         yield (
-            node.lineno,
-            About.BEARING,
+            node,
             f"{unparse(node)[:60]} counts from ray 0 as if it looked straight ahead: it looks to angle_min, and "
             "ray i to angle_min + i * angle_increment",
         )
@@ -106,8 +103,8 @@ def _shifted(node: ast.AST, parent: dict[ast.AST, ast.AST], summed: set[str]) ->
     return False
 
 
-@suspicion
-def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.ANGLE)
+def degrees_beside_radians(tree: ast.Module) -> Words:
     """Find an angle of a scan, or of atan2, that is compared with a number of degrees or subtracted from one."""
     if called(tree) & CONVERTS or re.search(r"\b(?:180|57)\b", unparse(tree)):
         return
@@ -124,8 +121,7 @@ def degrees_beside_radians(tree: ast.Module) -> Iterator[Suspect]:
                 if value is None or not FEWEST_DEGREES <= abs(value) <= MOST_DEGREES or not _is_angle(angle, names):
                     continue
                 yield (
-                    node.lineno,  # type: ignore[attr-defined]
-                    About.ANGLE,
+                    node,
                     f"{unparse(node)[:60]}: {_shown(limit, value)} are degrees, and {unparse(angle)[:40]} is "
                     "in radians, as all angles of a scan are: math.radians() converts degrees",
                 )

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 
 BIAS = re.compile(r"(?:^|[._])(?:\w*bias\w*|offset|drift)$", re.IGNORECASE)
@@ -20,8 +19,8 @@ def _biases(node: ast.AST) -> set[str]:
     return {each for each in parts if BIAS.search(each)}
 
 
-@suspicion
-def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def subtracted_as_an_angle(tree: ast.AST) -> Words:
     """Find a bias [rad/s] that is taken from the heading [rad], once or in each step without a time."""
     sums = [found for function in reads_rates(tree) for found in angle_sums(function)]
     for node, _, value, whole in sums:
@@ -35,8 +34,7 @@ def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
             and _biases(value.right)
         ):
             yield (
-                node.lineno,
-                About.GYROSCOPE,
+                node,
                 f"{unparse(node)[:70]} subtracts the bias, a rate [rad/s], from an angle [rad]: (rate - bias) * time",
             )
     for name in {name for _, name, _, _ in sums}:
@@ -45,15 +43,14 @@ def subtracted_as_an_angle(tree: ast.AST) -> Iterator[Suspect]:
         for target, value in assigned(tree):
             if unparse(target) == name and _biases(value) and "angular_velocity" not in unparse(value):
                 yield (
-                    value.lineno,
-                    About.GYROSCOPE,
+                    value,
                     f"{name} gets {unparse(value)[:40]}: the bias is taken from the angle [rad], once, but it is a "
                     "rate [rad/s], wrong in every message: add (rate - bias) * time each time",
                 )
 
 
-@suspicion
-def never_used(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def never_used(tree: ast.AST) -> Words:
     """Find a bias that is measured, and read nowhere but where it is measured."""
     if not any(True for _ in reads_rates(tree)):
         return
@@ -72,15 +69,11 @@ def never_used(tree: ast.AST) -> Iterator[Suspect]:
         )
         measured = [value for value in places if not isinstance(value, ast.Constant)]
         if not read and measured:
-            yield (
-                measured[0].lineno,
-                About.GYROSCOPE,
-                f"{name} is measured here and subtracted nowhere: add (rate - {name}) * time",
-            )
+            yield measured[0], f"{name} is measured here and subtracted nowhere: add (rate - {name}) * time"
 
 
-@suspicion
-def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def sums_for_means(tree: ast.AST) -> Words:
     """Find a running sum of the standing rates that is subtracted as the bias, and divided nowhere."""
     sums = {
         unparse(node.target): node
@@ -98,8 +91,7 @@ def sums_for_means(tree: ast.AST) -> Iterator[Suspect]:
             made = sums.get(unparse(node.right))
             if made is not None and unparse(node.right) not in divided:
                 yield (
-                    made.lineno,
-                    About.GYROSCOPE,
+                    made,
                     f"{unparse(made)[:60]} is the sum of the rates, and it is subtracted as their mean: divide it "
                     "by their number",
                 )

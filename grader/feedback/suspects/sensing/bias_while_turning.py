@@ -5,9 +5,9 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import angle_sums, assigned_once, expanded, reads_rates
 
 Guards = frozenset[tuple[str, bool]]  # conditions under which a statement is reached, and whether they hold
@@ -15,8 +15,8 @@ ADDS = frozenset({"append", "appendleft"})
 LEAVES = (ast.Return, ast.Continue, ast.Break, ast.Raise)
 
 
-@suspicion
-def collected_in_the_turn(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def collected_in_the_turn(tree: ast.AST) -> Words:
     """Find rates that go into the bias in every call in which the heading grows."""
     for function in reads_rates(tree):
         values, reached = assigned_once(function), dict(_reached(function.body, frozenset()))
@@ -25,8 +25,7 @@ def collected_in_the_turn(tree: ast.AST) -> Iterator[Suspect]:
             for statement in live:
                 if statement is not node and _kept(statement, values) & _subtracted(whole, live, values):
                     yield (
-                        statement.lineno,
-                        About.GYROSCOPE,
+                        statement,
                         f"{unparse(statement)[:70]} is done while the robot turns, too, so the turn itself is "
                         "subtracted as if it were bias: collect the rates only in the first second, while it stands",
                     )

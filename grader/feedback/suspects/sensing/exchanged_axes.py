@@ -7,19 +7,18 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, unparse
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, unparse
 from gz_course.grader.feedback.slips.geometry.rotations import SOME, pairs
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 OFFSETS = ast.Add | ast.Sub
 STEPS = 4  # calls that hand a name on, at most
 
 
-@suspicion
-def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.AXES)
+def exchanged_directions(tree: ast.AST) -> Words:
     """Find atan2 of what is put into the x of a message, and of what is put into its y, in this order."""
     axes = _axes(tree)
     for function in functions(tree):
@@ -31,15 +30,14 @@ def exchanged_directions(tree: ast.AST) -> Iterator[Suspect]:
                 ahead, left = (unparse(each) for each in call.args)
                 right = f"{name}({left}, {ahead})"
                 yield (
-                    call.lineno,
-                    About.AXES,
+                    call,
                     f"{unparse(call)[:60]}: {name} takes y first, what is to the left, and that is {left} here: "
                     f"{right}",
                 )
 
 
-@suspicion
-def other_turns(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.AXES)
+def other_turns(tree: ast.AST) -> Words:
     """Find a pair of sums that turns a place, but not by plus the angle whose cosine and sine it has."""
     axes = _axes(tree)
     for function, ((first, row), (second, below)) in pairs(tree):
@@ -52,8 +50,7 @@ def other_turns(tree: ast.AST) -> Iterator[Suspect]:
         cosine, sine = round(math.cos(SOME), 6), round(math.sin(SOME), 6)
         if found != {(cosine, -sine), (sine, cosine)}:
             yield (
-                first.lineno,
-                About.AXES,
+                first,
                 f"{unparse(first)[:50]} and {unparse(second)[:50]} turn the wrong way: for x, it is "
                 f"{ahead} * cos - {left} * sin, and for y {ahead} * sin + {left} * cos",
             )

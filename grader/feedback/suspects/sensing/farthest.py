@@ -5,15 +5,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, nodes_of, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 Loop = ast.For | ast.comprehension
 
 
-@suspicion
-def largest_range(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.FARTHEST)
+def largest_range(tree: ast.Module) -> Words:
     """Find the largest of the ranges of a scan in a node that steers, where nothing takes the smallest."""
     if "angular.z" not in unparse(tree):
         return
@@ -25,8 +25,7 @@ def largest_range(tree: ast.Module) -> Iterator[Suspect]:
         for call, name, text in given:
             if name in ("max", "nanmax") and (text in lists or text.partition("[")[0].endswith(".ranges")):
                 yield (
-                    call.lineno,
-                    About.FARTHEST,
+                    call,
                     f"{unparse(call)[:60]} takes the farthest of the ranges: the distance from a wall is that of "
                     "its nearest point, min(...)",
                 )

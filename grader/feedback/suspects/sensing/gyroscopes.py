@@ -6,8 +6,8 @@ import ast
 import re
 from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.steering.headings import TO_RADIANS
 
@@ -113,8 +113,8 @@ def _adds(node: ast.stmt, name: str) -> bool:
     return isinstance(node, ast.AugAssign) or bool(isinstance(node, ast.Assign) and again.search(unparse(node.value)))
 
 
-@suspicion
-def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def rates_in_degrees(tree: ast.AST) -> Words:
     """Find a rate, or the sum of rates, that is converted from degrees."""
     for function in reads_rates(tree):
         values = assigned_once(function)
@@ -129,15 +129,14 @@ def rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
             if given is not None and _is_rate(expanded(given, values), names):
                 yield (
                     getattr(node, "lineno", function.lineno),
-                    About.GYROSCOPE,
                     f"{text[:60]} converts from degrees what is in radians already: angular_velocity is in rad/s, so "
                     "the heading grows 57 times too slowly",
                 )
                 break
 
 
-@suspicion
-def biases(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def biases(tree: ast.AST) -> Words:
     """Find what is subtracted from the rates if it is made of the standing rates by something else than their mean."""
     lists = set(_lists_of_rates(tree))
     for function in reads_rates(tree):
@@ -148,14 +147,13 @@ def biases(tree: ast.AST) -> Iterator[Suspect]:
                 if words and (isinstance(part, ast.Call) or _subtracted(tree, part)):
                     yield (
                         getattr(part, "lineno", function.lineno),
-                        About.GYROSCOPE,
                         f"{unparse(part)[:60]} {words}: the bias is their mean, what the gyroscope says on average "
                         "while the robot stands",
                     )
 
 
-@suspicion
-def signs(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def signs(tree: ast.AST) -> Words:
     """Find rates, or times, that are added up with a wrong sign."""
     for function in reads_rates(tree):
         values = assigned_once(function)
@@ -168,50 +166,37 @@ def signs(tree: ast.AST) -> Iterator[Suspect]:
                     continue
                 left, right = unparse(each.left), unparse(each.right)
                 if EARLIER.search(left) and not EARLIER.search(right) and "stamp" in right:
-                    yield (
-                        node.lineno,
-                        About.GYROSCOPE,
-                        f"the time {unparse(each)[:60]} is negative: it is the later stamp minus the one before",
-                    )
+                    yield node, f"the time {unparse(each)[:60]} is negative: it is the later stamp minus the one before"
             sign = _sign(whole) * (-1 if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) else 1)
             if sign < 0:
                 yield (
-                    node.lineno,
-                    About.GYROSCOPE,
+                    node,
                     f"{unparse(node)[:70]} takes the rate with a minus sign: a turn to the left has a positive "
                     "rate and makes the heading larger",
                 )
 
 
-@suspicion
-def wrong_fields(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def wrong_fields(tree: ast.AST) -> Words:
     """Find another axis than z, and parts of stamps."""
     for function in reads_rates(tree):
         text = unparse(function)
         for node in walk(function):
             if isinstance(node, ast.Attribute) and unparse(node).endswith(("angular_velocity.x", "angular_velocity.y")):
-                yield node.lineno, About.GYROSCOPE, f"{unparse(node)} is tilting: turning on the spot is about z"
+                yield node, f"{unparse(node)} is tilting: turning on the spot is about z"
             if isinstance(node, ast.Call) and called(node) & {"degrees", "rad2deg"}:
-                yield (
-                    node.lineno,
-                    About.GYROSCOPE,
-                    f"{unparse(node)[:60]} makes degrees, and a full turn is 2 pi",
-                )
+                yield node, f"{unparse(node)[:60]} makes degrees, and a full turn is 2 pi"
         if ".nanosec" in text and not re.search(r"\.sec\b|from_msg", text):
             line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "nanosec")
-            yield line, About.GYROSCOPE, "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
+            yield line, "stamp.nanosec begins again at 0 every second: the time is sec + nanosec / 1e9"
         if re.search(r"stamp\.sec\b", text) and ".nanosec" not in text:
             line = next(n.lineno for n in nodes_of(function, ast.Attribute) if n.attr == "sec")
-            yield line, About.GYROSCOPE, "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
+            yield line, "stamp.sec are whole seconds only: the time is sec + nanosec / 1e9"
     for node in nodes_of(tree, ast.Call):
         if last_name(node.func) in SUMS and _undivided(tree, node):
             given = unparse(node)
             if re.search("rate|bias|gyro|still|offset|sample", given):
-                yield (
-                    node.lineno,
-                    About.GYROSCOPE,
-                    f"{given[:60]} is a sum; the bias is the mean: divide by their number",
-                )
+                yield node, f"{given[:60]} is a sum; the bias is the mean: divide by their number"
 
 
 def _undivided(tree: ast.AST, call: ast.Call) -> bool:
@@ -222,19 +207,15 @@ def _undivided(tree: ast.AST, call: ast.Call) -> bool:
     return not any(value is call and isinstance(target, ast.Name) for target, value in assigned(tree))
 
 
-@suspicion
-def turns_of_360(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def turns_of_360(tree: ast.AST) -> Words:
     """Find a heading that is compared with 360 where nothing makes degrees."""
     if called(tree) & {"degrees", "rad2deg"} or not any(reads_rates(tree)):
         return
     for node in nodes_of(tree, ast.Compare):
         numbers = [each.value for each in nodes_of(node, ast.Constant)]
         if any(each in (180, 360) for each in numbers) and re.search("heading|yaw|angle|turned", unparse(node)):
-            yield (
-                node.lineno,
-                About.GYROSCOPE,
-                f"{unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360",
-            )
+            yield node, f"{unparse(node)[:70]} compares radians with degrees: a full turn is 2 pi, not 360"
 
 
 def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
@@ -256,8 +237,8 @@ def _part_of_time(line: int, text: str) -> Iterator[Suspect]:
         )
 
 
-@suspicion
-def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def fixed_times(tree: ast.AST) -> Words:
     """Find rates that are added up with the same time for every message, or without any."""
     constants = _constants(tree)
     for function in reads_rates(tree):
@@ -272,15 +253,13 @@ def fixed_times(tree: ast.AST) -> Iterator[Suspect]:
             numbers = [each.value for each in nodes_of(whole, ast.Constant) if each.value not in (0, 1)]
             if factors or numbers:
                 yield (
-                    node.lineno,
-                    About.GYROSCOPE,
+                    node,
                     f"{unparse(node)[:70]} counts every message for the same time, which is not that between "
                     "two messages: use the difference of their stamps",
                 )
             else:
                 yield (
-                    node.lineno,
-                    About.GYROSCOPE,
+                    node,
                     f"{unparse(node)[:70]} adds rates [rad/s] without a time: an angle is a rate times the time "
                     "since the message before",
                 )
@@ -291,15 +270,14 @@ def _is_rate(value: ast.expr, names: set[str]) -> bool:
     return "angular_velocity" in text or text in names
 
 
-@suspicion
-def replaced(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def replaced(tree: ast.AST) -> Words:
     for function in reads_rates(tree):
         for node, name, value in _sums(function):
             text = unparse(value)
             if re.search("heading|yaw|angle|turned|theta", name) and not _adds(node, name) and "*" in text:
                 yield (
-                    node.lineno,
-                    About.GYROSCOPE,
+                    node,
                     f"{unparse(node)[:70]} forgets what was turned before: the steps are added up, {name} += ...",
                 )
 
@@ -352,8 +330,8 @@ def _lists_of_rates(tree: ast.AST) -> Iterator[str]:
                 yield unparse(node.func).rpartition(".")[0]
 
 
-@suspicion
-def jumps(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def jumps(tree: ast.AST) -> Words:
     """Find a heading that is brought back into one turn."""
     for function in reads_rates(tree):
         names = {name for _, name, _ in _sums(function)}
@@ -366,8 +344,7 @@ def jumps(tree: ast.AST) -> Iterator[Suspect]:
             wraps |= isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Sub) and "pi" in unparse(node.value)
             if wraps:
                 yield (
-                    node.lineno,
-                    About.GYROSCOPE,
+                    node,
                     f"{unparse(node)[:70]} makes the heading jump back, so it never reaches a full turn, 2 pi: add "
                     "up without a limit",
                 )

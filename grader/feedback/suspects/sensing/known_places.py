@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     functions,
@@ -16,7 +17,7 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import assigned_once, expanded
 from gz_course.grader.feedback.suspects.steering.headings import SINES
@@ -43,8 +44,8 @@ def _calls(tree: ast.AST, names: frozenset[str] | set[str]) -> Iterator[ast.Call
             yield node
 
 
-@suspicion
-def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def only_one_compared(tree: ast.AST) -> Words:
     """Find a place that is compared with the last, or the first, known one, where nothing goes through all."""
     for function, call, name in kept(tree):
         if _goes_through(tree, function, name):
@@ -56,8 +57,7 @@ def only_one_compared(tree: ast.AST) -> Iterator[Suspect]:
             if index in ("-1", "0") and node.lineno <= call.lineno:
                 which = "last" if index == "-1" else "first"
                 yield (
-                    node.lineno,
-                    About.SAME,
+                    node,
                     f"a new point is compared with {name}[{index}] only, the {which} one found, so a post that is seen "
                     f"again later counts again: compare it with all of {name}",
                 )
@@ -76,8 +76,8 @@ def _goes_through(tree: ast.AST, function: ast.FunctionDef, name: str) -> bool:
     return False
 
 
-@suspicion
-def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def nearest_one_compared(tree: ast.AST) -> Words:
     """Find a place that is compared with the known one nearest to the robot, not with the one nearest to it."""
     for function, call, name in kept(tree):
         loops = [node for node in nodes_of(function, ast.For, ast.comprehension)]
@@ -92,15 +92,14 @@ def nearest_one_compared(tree: ast.AST) -> Iterator[Suspect]:
             of = unparse(chosen.args[0]) if chosen.args else ""
             if of == name and keys and not own and chosen.lineno <= call.lineno:
                 yield (
-                    chosen.lineno,
-                    About.SAME,
+                    chosen,
                     f"{unparse(chosen)[:70]} is the known post nearest to the robot, and a new point is compared "
                     f"with that one only: compare it with all of {name}",
                 )
 
 
-@suspicion
-def by_number(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def by_number(tree: ast.AST) -> Words:
     """Find a place that is new if few are known, where nothing compares it with those that are."""
     adding = {function.name for function, _, _ in kept(tree)}
     for function, call, name in kept(tree):
@@ -117,8 +116,7 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
             calls_it = any(isinstance(each, ast.Call) and last_name(each.func) in adding for each in done)
             if (any(each is call for each in done) and not compared) or (calls_it and id(node) not in inner):
                 yield (
-                    node.lineno,
-                    About.SAME,
+                    node,
                     f"{unparse(node.test)[:60]} decides by how many posts are known whether one is new: a post is "
                     f"new if its place is far from all places in {name}",
                 )
@@ -159,8 +157,8 @@ def _equal(line: int, code: ast.expr, key: ast.expr) -> Iterator[Suspect]:
         )
 
 
-@suspicion
-def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def one_is_far(tree: ast.AST) -> Words:
     """Find places that are new as soon as one known place is far away, instead of all."""
     for function, call, name in kept(tree):
         for node in walk(function):
@@ -168,8 +166,7 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
                 tests = [each for each in nodes_of(node, ast.If) if _far(each.test)]
                 if any(call in walk(each) for test in tests for each in test.body):
                     yield (
-                        call.lineno,
-                        About.SAME,
+                        call,
                         f"{unparse(call)[:50]} is done in the loop, for each known post that is far away: a post "
                         "is new only if all known ones are, which is known after the loop",
                     )
@@ -177,15 +174,14 @@ def one_is_far(tree: ast.AST) -> Iterator[Suspect]:
                 inside = node.args[0] if node.args else None
                 if isinstance(inside, ast.GeneratorExp | ast.ListComp) and _far(inside.elt) and _guards(function, node):
                     yield (
-                        node.lineno,
-                        About.SAME,
+                        node,
                         f"{unparse(node)[:60]} holds as soon as one known post is far away: a post is new only if "
                         "all are, all(...)",
                     )
 
 
-@suspicion
-def near_all(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def near_all(tree: ast.AST) -> Words:
     """Find places that are new if they are near all known ones."""
     for function, call, name in kept(tree):
         for node in nodes_of(function, ast.If):
@@ -199,8 +195,7 @@ def near_all(tree: ast.AST) -> Iterator[Suspect]:
                 continue
             if isinstance(inside.elt, ast.Compare) and _far(_turned_over(inside.elt)):
                 yield (
-                    node.lineno,
-                    About.SAME,
+                    node,
                     f"{unparse(test)[:60]} holds for a point that is near all known posts, and a post is new if "
                     "it is far from all: > in place of <",
                 )
@@ -229,8 +224,8 @@ def _guards(function: ast.AST, call: ast.Call) -> bool:
     return any(isinstance(node, ast.If) and node.test is call for node in walk(function))
 
 
-@suspicion
-def unturned(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.UNTURNED)
+def unturned(tree: ast.AST) -> Words:
     """Find places that are kept in a file in which nothing is turned."""
     if called(tree) & TURNS or any(isinstance(node.op, ast.MatMult) for node in nodes_of(tree, ast.BinOp)):
         return
@@ -238,8 +233,7 @@ def unturned(tree: ast.AST) -> Iterator[Suspect]:
         if _is_one_field(function, call.args[0]):
             continue
         yield (
-            call.lineno,
-            About.UNTURNED,
+            call,
             f"{unparse(call)[:60]} keeps points as the camera sees them, and the robot turns: turn each by the "
             "heading at which it was seen",
         )

@@ -7,8 +7,17 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, functions, last_name, left_early, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    functions,
+    last_name,
+    left_early,
+    nodes_of,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 LEAST, MOST = 0.3, 2.5  # [m] ranges below and beyond which a node may leave out
@@ -21,8 +30,8 @@ def _steers(tree: ast.Module) -> bool:
     return "angular.z" in text and ".ranges" in text
 
 
-@suspicion
-def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.NEAREST_RANGE)
+def kept_from_scan_to_scan(tree: ast.Module) -> Words:
     """Find a smallest range that is an attribute, and begins again with no scan."""
     if not _steers(tree):
         return
@@ -35,15 +44,14 @@ def kept_from_scan_to_scan(tree: ast.Module) -> Iterator[Suspect]:
             others = [each for each in stores.get(name, []) if each[2] not in list(walk(node))]
             if name.startswith("self.") and others and all(each[0] == "__init__" for each in others):
                 yield (
-                    node.lineno,
-                    About.NEAREST_RANGE,
+                    node,
                     f"{name} is the smallest range of all scans since the start, because nothing sets it back: begin "
                     "each scan with math.inf",
                 )
 
 
-@suspicion
-def list_of_all_scans(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.NEAREST_RANGE)
+def list_of_all_scans(tree: ast.Module) -> Words:
     """Find a list of ranges that is an attribute, grows in each scan, and is never emptied."""
     if not _steers(tree):
         return
@@ -62,8 +70,7 @@ def list_of_all_scans(tree: ast.Module) -> Iterator[Suspect]:
                     grown, _, what = unparse(call.func).rpartition(".")
                     if what == "append" and grown in names and function.name != "__init__":
                         yield (
-                            call.lineno,
-                            About.NEAREST_RANGE,
+                            call,
                             f"{unparse(call)[:60]} adds to {name}, which still holds the rays of all scans before: "
                             "nothing empties it, so begin each scan with an empty list",
                         )
@@ -88,8 +95,8 @@ def _smallest_so_far(function: ast.FunctionDef) -> Iterator[tuple[str, ast.stmt]
             yield name, node
 
 
-@suspicion
-def ends_at_the_first(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.NEAREST_RANGE)
+def ends_at_the_first(tree: ast.Module) -> Words:
     """Find a search that ends at the first range that is smaller than its beginning."""
     if not _steers(tree):
         return
@@ -99,15 +106,14 @@ def ends_at_the_first(tree: ast.Module) -> Iterator[Suspect]:
             if id(node) in found and isinstance(node, ast.If) and isinstance(node.body[-1], ast.Break):
                 name = found[id(node)]
                 yield (
-                    node.body[-1].lineno,
-                    About.NEAREST_RANGE,
+                    node.body[-1],
                     f"break ends the search at the first ray that sets {name}: all rays must be compared to find the "
                     "nearest, so remove it",
                 )
 
 
-@suspicion
-def last_one(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.NEAREST_RANGE)
+def last_one(tree: ast.Module) -> Words:
     """Find a loop over the ranges that keeps each one in turn, and a use of what is left after it."""
     if not _steers(tree):
         return
@@ -131,8 +137,7 @@ def last_one(tree: ast.Module) -> Iterator[Suspect]:
                 ]  # fmt: skip
                 if not inside and after and name not in kept:
                     yield (
-                        target.lineno,
-                        About.NEAREST_RANGE,
+                        target,
                         f"{name} = {unparse(value)} is done for each ray that is valid, so after the loop it is "
                         f"the last of them, not the nearest: do it only if {unparse(value)} < {name}",
                     )

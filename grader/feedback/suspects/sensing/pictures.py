@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, calls, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, calls, last_name, nodes_of, unparse
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 ACROSS = re.compile(r"(?:^|_|\.)(?:w|width|wide|columns|cols|ncols)$")
 DOWN = re.compile(r"(?:^|_|\.)(?:h|height|high|rows|nrows)$")
@@ -28,8 +27,8 @@ def _arrays(tree: ast.AST) -> set[str]:
     return {unparse(target) for target, value in assigned(tree) if called(value) & {"imgmsg_to_cv2", "reshape"}}
 
 
-@suspicion
-def shapes(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PICTURE)
+def shapes(tree: ast.AST) -> Words:
     """Find a shape whose first number is taken for the width."""
     for node in nodes_of(tree, ast.Assign):
         for target in node.targets:
@@ -39,16 +38,12 @@ def shapes(tree: ast.AST) -> Iterator[Suspect]:
             if isinstance(target, ast.Tuple) and len(target.elts) >= 2 and _is_shape(value):
                 first, second = (unparse(each).lower() for each in target.elts[:2])
                 if ACROSS.search(first) and DOWN.search(second):
-                    yield (
-                        node.lineno,
-                        About.PICTURE,
-                        f"{unparse(node)[:70]} takes the height for the width: {RIGHT}",
-                    )
+                    yield node, f"{unparse(node)[:70]} takes the height for the width: {RIGHT}"
     for target, value in assigned(tree):
         if isinstance(value, ast.Subscript) and _is_shape(value.value):
             name, index = unparse(target).lower(), unparse(value.slice)
             if (index == "0" and ACROSS.search(name)) or (index == "1" and DOWN.search(name)):
-                yield value.lineno, About.PICTURE, f"{name} is {unparse(value)}, but {RIGHT}"
+                yield value, f"{name} is {unparse(value)}, but {RIGHT}"
 
 
 def _is_shape(value: ast.expr) -> bool:
@@ -59,8 +54,8 @@ def _is_shape(value: ast.expr) -> bool:
     )
 
 
-@suspicion
-def indices(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PICTURE)
+def indices(tree: ast.AST) -> Words:
     """Find a picture that is asked for [column, row]."""
     arrays = _arrays(tree)
     for node in nodes_of(tree, ast.Subscript):
@@ -69,49 +64,42 @@ def indices(tree: ast.AST) -> Iterator[Suspect]:
         if isinstance(node.slice, ast.Tuple) and len(node.slice.elts) >= 2:
             first, second = (unparse(each).lower() for each in node.slice.elts[:2])
             if COLUMN.search(first) and ROW.search(second):
-                yield node.lineno, About.PICTURE, f"{unparse(node)[:60]}: the row comes first, picture[row, column]"
+                yield node, f"{unparse(node)[:60]}: the row comes first, picture[row, column]"
 
 
-@suspicion
-def unpacked_indices(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PICTURE, ast.Assign)
+def unpacked_indices(node: ast.Assign) -> Words:
     """Find `columns, rows = np.nonzero(mask)`, which returns the rows first."""
-    for node in walk(tree):
-        match node:
-            case ast.Assign(targets=[ast.Tuple(elts=[first, second])], value=ast.Call(args=[mask]) as call):
-                pass
-            case _:
-                continue
-        if last_name(call.func) not in ("nonzero", "where") or ".T" in unparse(mask):
-            continue
-        if COLUMNS.search(unparse(first).lower()) and ROWS.search(unparse(second).lower()):
-            yield (
-                node.lineno,
-                About.PICTURE,
-                f"{unparse(node)[:70]} takes the rows for the columns: an array is [row, column], so "
-                f"{last_name(call.func)}() returns the rows first",
-            )
+    match node:
+        case ast.Assign(targets=[ast.Tuple(elts=[first, second])], value=ast.Call(args=[mask]) as call):
+            pass
+        case _:
+            return
+    if last_name(call.func) not in ("nonzero", "where") or ".T" in unparse(mask):
+        return
+    if COLUMNS.search(unparse(first).lower()) and ROWS.search(unparse(second).lower()):
+        yield (
+            f"{unparse(node)[:70]} takes the rows for the columns: an array is [row, column], so "
+            f"{last_name(call.func)}() returns the rows first"
+        )
 
 
-@suspicion
-def middles(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PICTURE)
+def middles(tree: ast.AST) -> Words:
     """Find the middle of the columns that is made of the rows, or of the wrong numbers of camera_info."""
     for target, value in assigned(tree):
         name, text = unparse(target), unparse(value)
         if not re.search(r"middle|centre|center|\bcx\b|_cx\b", name):
             continue
         if re.search(r"\bheight\b.* / 2|\.shape\[0\].* / 2", text) and "width" not in text:
-            yield value.lineno, About.PICTURE, f"{name} is made of the height: the middle of the columns is cx = k[2]"
+            yield value, f"{name} is made of the height: the middle of the columns is cx = k[2]"
         found = re.fullmatch(r"\w+\.[kK]\[(\d)\]", text)
         if found and found[1] in "5" and not re.search("y|row", name):
-            yield (
-                value.lineno,
-                About.PICTURE,
-                f"{name} is {text}, the middle row, cy: the middle of the columns is cx = k[2]",
-            )
+            yield value, f"{name} is {text}, the middle row, cy: the middle of the columns is cx = k[2]"
 
 
-@suspicion
-def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.DEPTH)
+def means_of_depths(tree: ast.AST) -> Words:
     """Find the mean of a rectangle of a picture of depths, which a single inf makes inf."""
     arrays = _arrays(tree)
     for call, name in calls(tree):
@@ -121,15 +109,14 @@ def means_of_depths(tree: ast.AST) -> Iterator[Suspect]:
         parts = given.slice.elts if isinstance(given.slice, ast.Tuple) else [given.slice]
         if unparse(given.value) in arrays and any(isinstance(each, ast.Slice) for each in parts):
             yield (
-                call.lineno,
-                About.DEPTH,
+                call,
                 f"{unparse(call)[:70]} is inf as soon as one of these pixels is inf, where nothing is near enough: "
                 "take the red pixels only, and leave out what is not finite",
             )
 
 
-@suspicion
-def cropped(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PICTURE)
+def cropped(tree: ast.AST) -> Words:
     """Find a picture whose first columns are cut off, in a file that never adds their number again."""
     for target, value in assigned(tree):
         if not isinstance(value, ast.Subscript) or not isinstance(value.slice, ast.Tuple) or len(value.slice.elts) < 2:
@@ -140,15 +127,14 @@ def cropped(tree: ast.AST) -> Iterator[Suspect]:
         of_picture = "imgmsg_to_cv2" in called(value) or unparse(value.value) in _arrays(tree)
         if first.isdigit() and int(first) and of_picture and not again.search(unparse(tree)):
             yield (
-                value.lineno,
-                About.PICTURE,
+                value,
                 f"{unparse(target)} begins at column {first} of the picture, so its column 0 is column {first}: "
                 f"add {first} to each column before cx is subtracted",
             )
 
 
-@suspicion
-def overflows(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.OVERFLOW)
+def overflows(tree: ast.AST) -> Words:
     """Find the channel of a picture of 8 bits that is multiplied, added or subtracted as it is."""
     pictures = {
         unparse(target)
@@ -165,8 +151,7 @@ def overflows(tree: ast.AST) -> Iterator[Suspect]:
             both = unparse(other) in channels or _is_channel(other, pictures)
             if (unparse(side) in channels or _is_channel(side, pictures)) and (whole or both):
                 yield (
-                    node.lineno,
-                    About.OVERFLOW,
+                    node,
                     f"{unparse(node)[:60]} overflows, because a picture has numbers of 8 bits (2 * 200 is 144): "
                     "convert it first, .astype(int)",
                 )

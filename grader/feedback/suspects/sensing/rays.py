@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 BEFORE = ("farthest", "feedback", "known_places")
 
 COPIES = frozenset({"list", "tuple", "array", "asarray"})
 
 
-@suspicion
-def by_number(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.RAY)
+def by_number(tree: ast.AST) -> Words:
     """Find a ray, or a slice of rays, that is chosen by a number in the program."""
     names = {
         unparse(target)
@@ -28,8 +27,7 @@ def by_number(tree: ast.AST) -> Iterator[Suspect]:
             continue
         if _numbered(node.slice):
             yield (
-                node.lineno,
-                About.RAY,
+                node,
                 f"{unparse(node)[:60]} takes a ray by its number: ray i looks to angle_min + i * angle_increment "
                 "[rad], and 0 is ahead only if angle_min is 0",
             )
@@ -51,16 +49,15 @@ def _numbered(index: ast.expr) -> bool:
     return not names and any(isinstance(each, ast.Constant) and isinstance(each.value, int) for each in inside)
 
 
-@suspicion
-def smallest_of_all(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.RAY)
+def smallest_of_all(tree: ast.AST) -> Words:
     whole = {unparse(target) for target, value in assigned(tree) if unparse(value).endswith(".ranges")}
     for node in nodes_of(tree, ast.Call):
         if last_name(node.func) == "min" and len(node.args) == 1:
             text = unparse(node.args[0])
             if (text.endswith(".ranges") or text in whole) and not node.keywords:
                 yield (
-                    node.lineno,
-                    About.RAY,
+                    node,
                     f"{unparse(node)[:60]} is the nearest in any direction, and includes ranges that are "
                     "not valid: choose the rays by their bearing, and those between range_min and range_max",
                 )

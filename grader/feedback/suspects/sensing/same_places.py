@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     calls,
@@ -17,8 +18,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.sensing.known_places import kept
 
 ONE_NUMBER = re.compile(r"lambda (\w+): (?:abs\()?\1\[[01]\]\)?|(?:operator\.)?itemgetter\([01]\)")
@@ -28,8 +29,8 @@ FARTHEST, NEAREST = 1.5, 0.05  # [m] limits beyond which no sensible rule for th
 Loop = ast.For | ast.comprehension
 
 
-@suspicion
-def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.NEAREST)
+def smallest_x(tree: ast.AST) -> Words:
     """Find the smallest of known places by their first number, in place of their distance."""
     names = {name for _, _, name in kept(tree)}
     for call, name in calls(tree):
@@ -40,14 +41,13 @@ def smallest_x(tree: ast.AST) -> Iterator[Suspect]:
         if key is None or by:
             which = "second numbers, y," if by and "1" in by[0][-3:] else "first numbers, x,"
             yield (
-                call.lineno,
-                About.NEAREST,
+                call,
                 f"{unparse(call)[:60]} compares the {which} and not distances: give it key=lambda post: hypot(*post)",
             )
 
 
-@suspicion
-def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def each_coordinate(tree: ast.AST) -> Words:
     """Find points that are the same as soon as one of their coordinates is about the same."""
     if not any(kept(tree)):
         return
@@ -70,8 +70,7 @@ def each_coordinate(tree: ast.AST) -> Iterator[Suspect]:
             near |= arrays and last_name(node.func) == "any" and _off(inside, far=False)
         if far or near:
             yield (
-                node.lineno,  # type: ignore[attr-defined]
-                About.SAME,
+                node,
                 f"{unparse(node)[:80]}: so two posts are the same as soon as their x or their y is about the same; "
                 "compare the distance between them, hypot(x - a, y - b)",
             )
@@ -89,8 +88,8 @@ def _off(node: ast.AST | None, far: bool) -> bool:
     return size == (False, True) and greater != far and isinstance(node.ops[0], ast.Gt | ast.GtE | ast.Lt | ast.LtE)
 
 
-@suspicion
-def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def cancelling_differences(tree: ast.AST) -> Words:
     """Find `abs((x - a) + (y - b))`, in which two differences may cancel each other."""
     for function in {each.name: each for each, _, _ in kept(tree)}.values():
         for call, name in calls(function):
@@ -100,8 +99,7 @@ def cancelling_differences(tree: ast.AST) -> Iterator[Suspect]:
                     "fabs",
                 ):
                     yield (
-                        call.lineno,
-                        About.SAME,
+                        call,
                         f"{unparse(call)[:60]} is small, too, where the two differences cancel each other, so "
                         "posts at other places are taken for one: compare the distance, hypot(x - a, y - b)",
                     )
@@ -136,8 +134,8 @@ def _coordinates(target: ast.expr) -> list[str]:
     return [f"{target.id}[0]", f"{target.id}[1]"] if isinstance(target, ast.Name) else []
 
 
-@suspicion
-def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def one_coordinate(tree: ast.AST) -> Words:
     """Find known places of which one coordinate only is compared."""
     names = {name for _, _, name in kept(tree)}
     for node in walk(tree):
@@ -151,15 +149,14 @@ def one_coordinate(tree: ast.AST) -> Iterator[Suspect]:
             compared = [each for each in _read(node, loop) if isinstance(each, ast.Compare)]
             if len(alone) == 1 and unparse(loop.target) not in used and compared:
                 yield (
-                    compared[0].lineno,
-                    About.SAME,
+                    compared[0],
                     f"{unparse(compared[0])[:60]} compares one coordinate only, and two posts may have the same: "
                     "compare the distance between them, hypot(x - a, y - b)",
                 )
 
 
-@suspicion
-def one_measure(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def one_measure(tree: ast.AST) -> Words:
     """Find places whose distances from the robot are compared, or whose directions, and nothing else."""
     for function in {each.name: each for each, _, _ in kept(tree)}.values():
         measures = {name: _measures(function, tree, name) for name in ("distance", "direction")}
@@ -176,15 +173,14 @@ def one_measure(tree: ast.AST) -> Iterator[Suspect]:
         other = "in other directions" if name == "distance" else "farther away"
         if _all_compared(function) == 1:
             yield (
-                node.lineno,
-                About.SAME,
+                node,
                 f"{unparse(node)[:60]} compares only the {name} of two posts as the robot sees them, so posts "
                 f"{other} with about the same {name} are taken for one: compare their places, hypot(x - a, y - b)",
             )
 
 
-@suspicion
-def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def wrong_limits(tree: ast.AST) -> Words:
     """Find distances between places that are compared with a limit that is far too large, or far too small."""
     known = named_numbers(tree)
     if not any(kept(tree)):
@@ -205,8 +201,7 @@ def wrong_limits(tree: ast.AST) -> Iterator[Suspect]:
                     if limit <= NEAREST:
                         what = "takes one post for several, because depth and heading have errors"
                     yield (
-                        node.lineno,
-                        About.SAME,
+                        node,
                         f"{unparse(node)[:60]} with {limit:g} m {what}: distances are in metres, and the posts "
                         "are thin",
                     )
@@ -241,8 +236,8 @@ def _all_compared(function: ast.FunctionDef) -> int:
     )
 
 
-@suspicion
-def emptied(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SAME)
+def emptied(tree: ast.AST) -> Words:
     """Find a list whose length is published, and that is emptied in the run."""
     spoken = {
         unparse(call.args[0])
@@ -257,15 +252,14 @@ def emptied(tree: ast.AST) -> Iterator[Suspect]:
         for target, value in assigned(function):
             if unparse(target) in spoken and isinstance(value, ast.List) and not value.elts:
                 yield (
-                    value.lineno,
-                    About.SAME,
+                    value,
                     f"{unparse(target)} is emptied here again and again, and its length is published: count the "
                     "posts of the whole turn",
                 )
 
 
-@suspicion
-def of_one_picture(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ONE_PICTURE)
+def of_one_picture(tree: ast.AST) -> Words:
     """Find a number that is published, and that is how long a list is which each picture makes anew."""
     spoken = {unparse(each.value) for each in nodes_of(tree, ast.keyword) if each.arg == "data"}
     spoken |= {unparse(value) for target, value in assigned(tree) if unparse(target).endswith(".data")}
@@ -278,8 +272,7 @@ def of_one_picture(tree: ast.AST) -> Iterator[Suspect]:
             name = unparse(target)
             if name in spoken and name.startswith("self.") and of and unparse(of[0].args[0]) in made:
                 yield (
-                    value.lineno,
-                    About.ONE_PICTURE,
+                    value,
                     f"{name} = {unparse(value)[:50]} counts {unparse(of[0].args[0])}, which begins empty in "
                     "each picture: count the posts of the whole turn",
                 )

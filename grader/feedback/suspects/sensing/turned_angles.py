@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import calls, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.sensing.gyroscopes import reads_rates
 
 
-@suspicion
-def orientations(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def orientations(tree: ast.AST) -> Words:
     """Find the orientation in a message of a gyroscope where its rates are read nowhere."""
     heard = {
         last_name(call.args[2])
@@ -24,11 +23,11 @@ def orientations(tree: ast.AST) -> Iterator[Suspect]:
         found = [node for node in nodes_of(function, ast.Attribute) if node.attr == "orientation"]
         for node in found[:1]:
             said = "the angle of an orientation jumps from pi to -pi and never comes to 2 pi: add up angular_velocity.z"
-            yield node.lineno, About.GYROSCOPE, f"{said} * time"
+            yield node, f"{said} * time"
 
 
-@suspicion
-def set_back(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def set_back(tree: ast.AST) -> Words:
     """Find an angle that is set to a number just before something is added to it, in each message."""
     for function in reads_rates(tree):
         blocks = [(node, block) for node in walk(function) for block in (_block(node, "body"), _block(node, "orelse"))]
@@ -43,8 +42,7 @@ def set_back(tree: ast.AST) -> Iterator[Suspect]:
                         made = numbers.get(unparse(target))
                         if made is not None and unparse(target) not in once:
                             yield (
-                                made.lineno,
-                                About.GYROSCOPE,
+                                made,
                                 f"{unparse(made)} is done before each step is added, so what was turned before is "
                                 "forgotten: set it once",
                             )
@@ -56,8 +54,8 @@ def _block(node: ast.AST, name: str) -> list[ast.stmt]:
     return block if isinstance(block, list) else []
 
 
-@suspicion
-def steps_of_timers(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GYROSCOPE)
+def steps_of_timers(tree: ast.AST) -> Words:
     """Find a sum in the callback of a timer that counts another time for each call than the period of the timer."""
     known = named_numbers(tree)
     periods = {
@@ -75,8 +73,7 @@ def steps_of_timers(tree: ast.AST) -> Iterator[Suspect]:
             step = number(node.value.right, known)
             if step and abs(step - period) > 1e-6:
                 yield (
-                    node.lineno,
-                    About.GYROSCOPE,
+                    node,
                     f"{unparse(node)[:60]} counts {step:g} s for each call, and the timer calls {function.name} "
                     f"every {period:g} s",
                 )

@@ -11,9 +11,9 @@ import re
 from collections.abc import Callable, Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.steering.reaching_values import ReachingValues, UnknownValueError
 from gz_course.grader.feedback.suspects.steering.speed_limits import LIMITING, limit_names, reads_limit
 
@@ -33,8 +33,8 @@ class Rate:
         self.most, self.limited, self.found = most, limited, found
 
 
-@suspicion
-def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.LIMIT)
+def rates_beyond(tree: ast.Module) -> Words:
     """Find the one value of angular.z that may be beyond its limit, in a node that steers by a lidar."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
@@ -53,11 +53,11 @@ def rates_beyond(tree: ast.Module) -> Iterator[Suspect]:
     limits = any(number(node, {}) == LIMIT for node in nodes_of(tree, ast.Constant))
     if len(found) == 1 and (limits or NOWHERE not in next(iter(found))[1]):
         line, said = found.pop()
-        yield line, About.LIMIT, said
+        yield line, said
 
 
-@suspicion
-def limited_on_one_side(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.LIMIT)
+def limited_on_one_side(tree: ast.Module) -> Words:
     """Find `if turning > 1.5: turning = 1.5` without the other side."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
@@ -73,7 +73,7 @@ def limited_on_one_side(tree: ast.Module) -> Iterator[Suspect]:
                 other = other or re.search(rf"(max|min|clip|clamp|limit\w*|saturate)\([^\n)]*\b{name}\b", text)
                 if number(limit, known) == LIMIT and not other:
                     said = f"if {unparse(node.test)[:50]} limits it on one side only, and it may be below"
-                    yield node.lineno, About.LIMIT, f"{said} -{unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
+                    yield node, f"{said} -{unparse(limit)}: limit both, max(-1.5, min(1.5, ...))"
 
 
 def _sent(tree: ast.Module, name: str) -> Iterator[tuple[ast.expr, ast.expr, ast.FunctionDef]]:
@@ -185,8 +185,8 @@ AT_MOST, SHARE, AT_LEAST, FREE = "speed_limit", "share", "1 at least", "free"
 Speed = str | float | Found
 
 
-@suspicion
-def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.SPEED_LIMIT)
+def speeds_beyond(tree: ast.Module) -> Words:
     """Find the one value of linear.x that may be beyond the parameter speed_limit."""
     if "speed_limit" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
@@ -203,7 +203,7 @@ def speeds_beyond(tree: ast.Module) -> Iterator[Suspect]:
         return
     if len(found) == 1:
         line, said = found.pop()
-        yield line, About.SPEED_LIMIT, said
+        yield line, said
 
 
 class Speeds:

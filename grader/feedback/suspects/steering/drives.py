@@ -6,10 +6,9 @@ Those of a drive that begins again are about `again`.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, is_none, nodes_of, set_to, unparse, walk
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, functions, is_none, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.steering.endless_drives import (
     TIMES,
     asked_for_none,
@@ -23,8 +22,8 @@ STEPS = 5  # names followed at most  # names followed at most
 PLACES = ("pose.position.x", "pose.position.y", "pose.orientation.", "position.x", "position.y", "twist.linear.")
 
 
-@of_a_plain_drive
-def by_place(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.BY_PLACE)
+def by_place(tree: ast.AST) -> Words:
     """Find a comparison of a place or a heading with a number, in a file that compares no time."""
     values = set_to(tree)
     compares = [
@@ -44,8 +43,7 @@ def by_place(tree: ast.AST) -> Iterator[Suspect]:
                     else ""
                 )
                 yield (
-                    node.lineno,
-                    About.BY_PLACE,
+                    node,
                     f"{unparse(node)[:60]} asks for {what} ({place[:50]}) and not for the time that has "
                     f"passed{coordinate}",
                 )
@@ -78,8 +76,8 @@ def _place(node: ast.expr, values: dict[str, list[ast.expr]], steps: int) -> str
     return ""
 
 
-@of_a_plain_drive
-def set_again(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.AGAIN)
+def set_again(tree: ast.AST) -> Words:
     """Find a start that is set back to None, or set again when the time is over."""
     init = in_init(tree)
     starts = {
@@ -92,8 +90,7 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
         name = unparse(target)
         if name in starts and "." in name and id(value) not in init and is_none(value):
             yield (
-                target.lineno,
-                About.AGAIN,
+                target,
                 f"{name} = None makes the next call take itself for the first one, so a new drive begins: leave "
                 f"{name} as it is when you stop",
             )
@@ -104,8 +101,7 @@ def set_again(tree: ast.AST) -> Iterator[Suspect]:
                 if id(target) in init or isinstance(value, ast.Constant) or not _late(block.test, name, tree):
                     continue
                 yield (
-                    target.lineno,
-                    About.AGAIN,
+                    target,
                     f"{name} = {unparse(value)[:40]} stands below  if {unparse(block.test)[:60]}:, so it is "
                     "set again when the time is over, and a new drive begins: set it once, if it is None",
                 )
@@ -127,8 +123,8 @@ def _late(test: ast.expr, start: str, tree: ast.AST) -> bool:
     return False
 
 
-@of_a_plain_drive
-def falls_through(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.AGAIN)
+def falls_through(tree: ast.AST) -> Words:
     """Find a stop that is published below a condition, with the drive behind it in the same call."""
     for function in functions(tree):
         for i, block in enumerate(function.body):
@@ -139,8 +135,7 @@ def falls_through(tree: ast.AST) -> Iterator[Suspect]:
             behind = [call for each in function.body[i + 1 :] for call, _ in publish_calls(each)]
             if stops and drives and behind:
                 yield (
-                    stops[0].lineno,
-                    About.AGAIN,
+                    stops[0],
                     f"the stop is published here, and then the same call goes on to line {behind[0].lineno}, which "
                     "publishes the drive: return after the stop, or put the drive into an else",
                 )
@@ -150,8 +145,8 @@ def _returns(block: ast.If) -> bool:
     return isinstance(block.body[-1], ast.Return | ast.Raise | ast.Continue | ast.Break)
 
 
-@of_a_plain_drive
-def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.AGAIN)
+def for_a_moment(tree: ast.AST) -> Words:
     """Find a time that is compared with == and a number of seconds: it holds for a moment, or for a second."""
     values = set_to(tree)
     for node in (each for each in nodes_of(tree, ast.Compare) if len(each.ops) == 1):
@@ -159,8 +154,4 @@ def for_a_moment(tree: ast.AST) -> Iterator[Suspect]:
         number = next((each.value for each in sides if isinstance(each, ast.Constant)), None)
         late = isinstance(node.ops[0], ast.Eq) and isinstance(number, int | float) and number >= 1
         if late and any(_reads_time(side, values, STEPS) for side in sides):
-            yield (
-                node.lineno,
-                About.AGAIN,
-                f"{unparse(node)[:60]} holds for a moment and then no more: >= holds from then on",
-            )
+            yield node, f"{unparse(node)[:60]} holds for a moment and then no more: >= holds from then on"

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     calls,
@@ -18,7 +19,7 @@ from gz_course.grader.feedback.facts.syntax import (
     walk,
 )
 from gz_course.grader.feedback.slips.clocks.time_units import unit_of
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.steering.plain_drives import of_a_plain_drive, set_speeds
 
 LONG = 8.0  # [s] more is no drive of a run
@@ -53,8 +54,8 @@ def publish_calls(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
             yield call, unparse(call.args[0])
 
 
-@of_a_plain_drive
-def computed_once(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def computed_once(tree: ast.AST) -> Words:
     """Find a time that is computed only where the start is set, and compared in every call."""
     init, values = in_init(tree), set_to(tree)
     for block in (node for node in nodes_of(tree, ast.If) if asked_for_none(node.test)):
@@ -67,15 +68,14 @@ def computed_once(tree: ast.AST) -> Iterator[Suspect]:
             others = [each for each in values[name] if each is not value and id(each) not in init]
             if name != start and not others and _has_difference(value) and _compared(tree, name):
                 yield (
-                    target.lineno,
-                    About.ENDLESS,
+                    target,
                     f"{name} is computed only here, below  if {unparse(block.test)}:, which holds once; compute "
                     "it in every call",
                 )
 
 
-@of_a_plain_drive
-def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def kept_messages(tree: ast.AST) -> Words:
     """Find a Twist that is made once, filled below a condition in a callback, and never set back to zero."""
     nodes = in_init(tree)
     sent = {message for _, message in publish_calls(tree)}
@@ -101,8 +101,7 @@ def kept_messages(tree: ast.AST) -> Iterator[Suspect]:
                 )
                 if once and not again and not zero and not is_zero(value):
                     yield (
-                        target.lineno,
-                        About.ENDLESS,
+                        target,
                         f"{message} is one message for all calls and keeps what is set here, below  "
                         f"if {unparse(block.test)[:60]}:, when the condition holds no more: set its fields to 0 "
                         "then, or make a new Twist() in every call",
@@ -120,8 +119,8 @@ def _compared(tree: ast.AST, name: str) -> bool:
     )
 
 
-@of_a_plain_drive
-def refreshed(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def refreshed(tree: ast.AST) -> Words:
     """Find a start that another callback sets anew each time it is called."""
     starts = {
         unparse(part.right)
@@ -137,15 +136,14 @@ def refreshed(tree: ast.AST) -> Iterator[Suspect]:
                 name = unparse(target)
                 if name in starts - own and any(last_name(each) in TIMES for each in walk(value)) and values[name]:
                     yield (
-                        statement.lineno,
-                        About.ENDLESS,
+                        statement,
                         f"{name} = {unparse(value)[:40]} sets the start again in every call of {function.name}, so "
                         "the time since then stays short: set it once, if it is None",
                     )
 
 
-@of_a_plain_drive
-def default_messages(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def default_messages(tree: ast.AST) -> Words:
     """Find a message that is the default of a parameter, and is filled below a condition and published."""
     for function in functions(tree):
         arguments, defaults = function.args.args, function.args.defaults
@@ -153,15 +151,14 @@ def default_messages(tree: ast.AST) -> Iterator[Suspect]:
             filled = [target for target, _ in set_speeds(function) if unparse(target).startswith(f"{argument.arg}.")]
             if filled and isinstance(default, ast.Call):
                 yield (
-                    function.lineno,
-                    About.ENDLESS,
+                    function,
                     f"{argument.arg}={unparse(default)} is made once, when {function.name} is defined, and keeps "
                     f"what line {filled[0].lineno} sets from call to call: make the message in the function",
                 )
 
 
-@of_a_plain_drive
-def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def outside_the_condition(tree: ast.AST) -> Words:
     """Find a speed that is set in every call, behind a condition that neither leaves nor sets it back."""
     for function in (each for each in functions(tree) if each.name not in ("__init__", "main")):
         for i, statement in enumerate(function.body):
@@ -175,16 +172,15 @@ def outside_the_condition(tree: ast.AST) -> Iterator[Suspect]:
             if any(isinstance(each, ast.If) and _may_stop(each) for each in after):
                 continue
             yield (
-                statement.lineno,
-                About.ENDLESS,
+                statement,
                 f"{unparse(statement)[:60]} comes after the condition of line {before[-1].lineno} and not in "
                 "it, so every call sets this speed; indent it, or return where the time is over",
             )
             return
 
 
-@of_a_plain_drive
-def long_times(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def long_times(tree: ast.AST) -> Words:
     """Find a time in seconds that is compared with far more of them than a drive takes."""
     numbers, values = named_numbers(tree), set_to(tree)
     declared = {
@@ -201,15 +197,14 @@ def long_times(tree: ast.AST) -> Iterator[Suspect]:
             limit = declared.get(unparse(asked[0].args[0])) if asked else number(other, numbers)
             if limit and limit > LONG and unit_of(one, values, numbers) == 1.0:
                 yield (
-                    node.lineno,
-                    About.ENDLESS,
+                    node,
                     f"{unparse(node)[:70]} compares a time in seconds with {limit:g}: that many seconds are longer "
                     "than the run",
                 )
 
 
-@of_a_plain_drive
-def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def no_time_at_all(tree: ast.AST) -> Words:
     """Find a file that neither reads a clock, nor compares anything, nor cancels, nor has a second timer."""
     names = {last_name(node) for node in walk(tree)}
     asks = any(isinstance(node, ast.Compare) for function in functions(tree) for node in walk(function))
@@ -217,16 +212,12 @@ def no_time_at_all(tree: ast.AST) -> Iterator[Suspect]:
     if names & TIMES or asks or "cancel" in names or len(timers) != 1:
         return
     for target, _ in set_speeds(tree):
-        yield (
-            target.lineno,
-            About.ENDLESS,
-            "nothing in the file asks how much time has passed; the number of calls does not say it",
-        )
+        yield target, "nothing in the file asks how much time has passed; the number of calls does not say it"
         return
 
 
-@of_a_plain_drive
-def not_read(tree: ast.AST) -> Iterator[Suspect]:
+@of_a_plain_drive(About.ENDLESS)
+def not_read(tree: ast.AST) -> Words:
     """Find an attribute that a method sets to end something, and that nobody reads, or `__init__` alone."""
     for owner in nodes_of(tree, ast.ClassDef):
         init = in_init(owner)
@@ -244,7 +235,7 @@ def not_read(tree: ast.AST) -> Iterator[Suspect]:
             who = (
                 f"only __init__ reads {name}, once, in line {readers[0].lineno}" if readers else f"nothing reads {name}"
             )
-            yield target.lineno, About.ENDLESS, f"{name} = {unparse(value)} changes nothing: {who}"
+            yield target, f"{name} = {unparse(value)} changes nothing: {who}"
 
 
 def _varies(value: ast.expr) -> bool:

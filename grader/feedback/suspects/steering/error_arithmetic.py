@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import last_name, set_to, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, last_name, set_to, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 ROUNDS = frozenset({"int", "round", "floor", "ceil", "trunc", "rint"})
 ERROR = re.compile(r"(^|[._])(e|err|error|diff|difference|deviation|offset)\w*$", re.IGNORECASE)
 
 
-@suspicion
-def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.WHOLE_METRES)
+def whole_metres(tree: ast.Module) -> Words:
     """Find a difference of distances that is rounded to whole metres."""
     if not _steers(tree):
         return
@@ -26,15 +25,14 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
                 values = known.get(unparse(given), [given])
                 if all(_is_difference(each) for each in values):
                     yield (
-                        node.lineno,
-                        About.WHOLE_METRES,
+                        node,
                         f"{unparse(node)[:60]} is a whole number of metres: an error below 1 m, or 0.5 m, becomes "
                         "0; leave it as it is",
                     )
 
 
-@suspicion
-def divided(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.DIVIDED)
+def divided(tree: ast.Module) -> Words:
     """Find a gain that is divided by the error instead of multiplied with it."""
     if not _steers(tree):
         return
@@ -45,8 +43,7 @@ def divided(tree: ast.Module) -> Iterator[Suspect]:
                 values = known.get(unparse(error), [])
                 if ERROR.search(unparse(error)) and values and all(_is_difference(each) for each in values):
                     yield (
-                        node.lineno,
-                        About.DIVIDED,
+                        node,
                         f"{unparse(node)[:60]} divides by the error: the smaller the error is, the more the robot "
                         "turns; multiply the gain by it",
                     )

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, last_name, nodes_of, set_to, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    assigned,
+    functions,
+    last_name,
+    nodes_of,
+    set_to,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"})
 ERROR = re.compile(
@@ -56,8 +64,8 @@ def _range_of(loop: ast.For | ast.comprehension) -> str:
     return target.id if isinstance(target, ast.Name) and text.endswith(".ranges") else ""
 
 
-@suspicion
-def means(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.MEAN)
+def means(tree: ast.AST) -> Words:
     """Find the mean, or the median, of ranges in a node that steers, in place of the nearest of them."""
     if "angular.z" not in unparse(tree):
         return
@@ -71,8 +79,7 @@ def means(tree: ast.AST) -> Iterator[Suspect]:
                 of = _summed(node)
             if of in lists or (of.endswith("]") and of.partition("[")[0].endswith(".ranges")):
                 yield (
-                    node.lineno,  # type: ignore[attr-defined]
-                    About.MEAN,
+                    node,
                     f"{unparse(node)[:60]} depends on all that those rays see, near and far: the distance from a "
                     "wall is that of its nearest point, min(...)",
                 )
@@ -86,29 +93,27 @@ def _summed(node: ast.BinOp) -> str:
     return ""
 
 
-@suspicion
-def added_commands(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ADDED, ast.FunctionDef)
+def added_commands(function: ast.FunctionDef) -> Words:
     """Find a turning rate that is made by adding to the last one."""
-    for function in functions(tree):
-        values = {unparse(target): value for target, value in assigned(function) if not isinstance(target, ast.Tuple)}
-        for node in walk(function):
-            if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add | ast.Sub):
-                old, new = unparse(node.target), node.value
-            elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
-                old, new = unparse(node.left), node.right
-            else:
-                continue
-            if not old.startswith("self.") or isinstance(new, ast.Constant) or _depends(new, old, values, STEPS):
-                continue  # a low-pass filter subtracts the last one, too
-            kept = old.endswith("angular.z") or _becomes_turning(function, old)
-            made = isinstance(node, ast.AugAssign) or _stored(function, node, old, values)
-            if kept and made:
-                yield (
-                    node.lineno,
-                    About.ADDED,
-                    f"{unparse(node)[:60]} adds the correction to the last command, so it grows as long as the "
-                    "error lasts: a correction is the whole angular.z, computed for each scan alone",
-                )
+    values = {unparse(target): value for target, value in assigned(function) if not isinstance(target, ast.Tuple)}
+    for node in walk(function):
+        if isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add | ast.Sub):
+            old, new = unparse(node.target), node.value
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub):
+            old, new = unparse(node.left), node.right
+        else:
+            continue
+        if not old.startswith("self.") or isinstance(new, ast.Constant) or _depends(new, old, values, STEPS):
+            continue  # a low-pass filter subtracts the last one, too
+        kept = old.endswith("angular.z") or _becomes_turning(function, old)
+        made = isinstance(node, ast.AugAssign) or _stored(function, node, old, values)
+        if kept and made:
+            yield (
+                node,
+                f"{unparse(node)[:60]} adds the correction to the last command, so it grows as long as the "
+                "error lasts: a correction is the whole angular.z, computed for each scan alone",
+            )
 
 
 def _depends(node: ast.AST, name: str, values: dict[str, ast.expr], steps: int) -> bool:
@@ -149,8 +154,8 @@ def _stored(function: Function, node: ast.AST, old: str, values: dict[str, ast.e
     return False
 
 
-@suspicion
-def integrals(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.INTEGRAL)
+def integrals(tree: ast.AST) -> Words:
     """Find a sum of errors that a node that steers keeps from scan to scan."""
     if "angular.z" not in unparse(tree):
         return
@@ -169,30 +174,28 @@ def integrals(tree: ast.AST) -> Iterator[Suspect]:
         kept = name.startswith("self.") and name not in limited and not isinstance(value, ast.Constant)
         if kept and ERROR.search(unparse(node)):
             yield (
-                node.lineno,  # type: ignore[attr-defined]
-                About.INTEGRAL,
+                node,
                 f"{unparse(node)[:60]} is an integral that nothing limits: it grows while the robot is far "
                 "away, and keeps it turning when it is near (wind-up); limit it, or leave it out",
             )
 
 
-@suspicion
-def kept_parameters(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.PARAMETER)
+def kept_parameters(tree: ast.AST) -> Words:
     """Find a Parameter that __init__ keeps: other than its name says, it does not follow the node's parameter."""
     init = next((function for function in functions(tree) if function.name == "__init__"), None)
     for target, value in assigned(init) if init is not None else ():
         kept = unparse(target)
         if isinstance(value, ast.Call) and last_name(value.func) == "get_parameter" and kept.startswith("self."):
             yield (
-                value.lineno,
-                About.PARAMETER,
+                value,
                 f"{kept} = {unparse(value)[:60]} keeps a Parameter, which is a copy: its .value does not change "
                 "when the parameter is set",
             )
 
 
-@suspicion
-def added_setpoints(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SETPOINT)
+def added_setpoints(tree: ast.AST) -> Words:
     """Find a parameter that is added to a measured distance, where only the rest of the way could be meant."""
     given = set_to(tree)
     parameters, measured = (
@@ -206,4 +209,4 @@ def added_setpoints(tree: ast.AST) -> Iterator[Suspect]:
         for wanted, distance in (sides, sides[::-1]):
             if wanted in parameters and (MEASURED.search(distance) or distance in measured):
                 said = f"{unparse(node)[:60]}: what is left to drive is the difference, {distance} - {wanted}"
-                yield node.lineno, About.SETPOINT, said
+                yield node, said

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     calls,
@@ -16,8 +16,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 KEPT = re.compile(r"gap|desired|wanted|1\.2\b|keep|spacing|target_dist", re.IGNORECASE)
 MEASURED = re.compile(r"dist|hypot|range|length|separation", re.IGNORECASE)
@@ -28,8 +28,8 @@ def _speeds(tree: ast.AST) -> list[tuple[ast.expr, ast.expr]]:
     return [(target, value) for target, value in assigned(tree) if unparse(target).endswith("linear.x")]
 
 
-@suspicion
-def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SILENCED)
+def timers_that_end_themselves(tree: ast.AST) -> Words:
     """Find a timer that is cancelled in its own callback where a distance is small, and never begins again."""
     if called(tree) & {"reset"} or "create_subscription" not in called(tree):
         return
@@ -44,24 +44,19 @@ def timers_that_end_themselves(tree: ast.AST) -> Iterator[Suspect]:
                 ends = name == "cancel" and unparse(call.func) == f"{timer}.cancel"
                 if id(call) in under and (ends or (name == "destroy_timer" and timer in map(unparse, call.args))):
                     yield (
-                        call.lineno,
-                        About.SILENCED,
+                        call,
                         f"{unparse(call)} ends the timer for good, so {callback} is never called again: return "
                         "instead, or send a Twist of zeros",
                     )
 
 
-@suspicion
-def whole_speeds(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WHOLE_SPEED)
+def whole_speeds(tree: ast.AST) -> Words:
     """Find a speed that int() or // makes a whole number."""
     for _, value in _speeds(tree):
         whole = [node for node in nodes_of(value, ast.Call) if unparse(node.func) == "int"]
         if whole or any(isinstance(node, ast.FloorDiv) for node in walk(value)):
-            yield (
-                value.lineno,
-                About.WHOLE_SPEED,
-                f"{unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0",
-            )
+            yield value, f"{unparse(value)[:60]} leaves out what is behind the point, so every speed below 1 m/s is 0"
 
 
 def _drives(body: list[ast.stmt]) -> bool:
@@ -72,8 +67,8 @@ def _is_zero(value: ast.expr) -> bool:
     return isinstance(value, ast.Constant) and not value.value
 
 
-@suspicion
-def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GAP)
+def gap_minus_distance(tree: ast.AST) -> Words:
     """Find the gap minus the distance in a file that takes no speed with a minus sign."""
     if any(isinstance(node, ast.USub) for _, value in _speeds(tree) for node in walk(value)):
         return
@@ -83,43 +78,34 @@ def gap_minus_distance(tree: ast.AST) -> Iterator[Suspect]:
         left, right = unparse(node.left), unparse(node.right)
         if KEPT.search(left) and MEASURED.search(right) and not MEASURED.search(left):
             yield (
-                node.lineno,
-                About.GAP,
+                node,
                 f"{unparse(node)[:60]} is below zero where the distance is too large: the speed is made of the "
                 "distance minus the gap",
             )
 
 
-@suspicion
-def drives_when_near(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GAP, ast.If)
+def drives_when_near(node: ast.If, tree: ast.AST) -> Words:
     """Find a condition that lets a robot drive only where the distance, or the error, is small."""
-    for node in nodes_of(tree, ast.If):
-        if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
-            continue
-        test, left, right = node.test, unparse(node.test.left), unparse(node.test.comparators[0])
-        less = isinstance(test.ops[0], ast.Lt | ast.LtE) and LESS.search(left) and "abs" not in left
-        more = isinstance(test.ops[0], ast.Gt | ast.GtE) and LESS.search(right) and not LESS.search(left)
-        if not (less or more) or not _drives(node.body) or _drives(node.orelse):
-            continue
-        others = [value for _, value in _speeds(tree) if not any(value is each for each in walk(node))]
-        if all(_is_zero(value) for value in others):
-            yield (
-                node.lineno,
-                About.GAP,
-                f"it drives only where {unparse(test)[:60]}, which does not hold where it is behind",
-            )
+    if not isinstance(node.test, ast.Compare) or len(node.test.ops) != 1:
+        return
+    test, left, right = node.test, unparse(node.test.left), unparse(node.test.comparators[0])
+    less = isinstance(test.ops[0], ast.Lt | ast.LtE) and LESS.search(left) and "abs" not in left
+    more = isinstance(test.ops[0], ast.Gt | ast.GtE) and LESS.search(right) and not LESS.search(left)
+    if not (less or more) or not _drives(node.body) or _drives(node.orelse):
+        return
+    others = [value for _, value in _speeds(tree) if not any(value is each for each in walk(node))]
+    if all(_is_zero(value) for value in others):
+        yield f"it drives only where {unparse(test)[:60]}, which does not hold where it is behind"
 
 
-@suspicion
-def added_positions(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.GAP, ast.AugAssign)
+def added_positions(node: ast.AugAssign) -> Words:
     """Find a position of an odometry that is added to a sum with each message."""
-    for node in nodes_of(tree, ast.AugAssign):
-        if isinstance(node.op, ast.Add) and ".position." in unparse(node.value):
-            name = unparse(node.target)
-            if name.startswith("self."):
-                yield (
-                    node.lineno,
-                    About.GAP,
-                    f"{name} grows by the whole position with each message: an odometry says where the robot is, not "
-                    "how far it has come since the message before",
-                )
+    if isinstance(node.op, ast.Add) and ".position." in unparse(node.value):
+        name = unparse(node.target)
+        if name.startswith("self."):
+            yield (
+                f"{name} grows by the whole position with each message: an odometry says where the robot is, not "
+                "how far it has come since the message before"
+            )

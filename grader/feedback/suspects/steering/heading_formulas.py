@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
-from gz_course.grader.feedback.facts.syntax import assigned, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 NAMED = re.compile(r"heading|yaw|theta", re.IGNORECASE)
 TURNED = (1.0, -1.2, 2.1, -2.6)  # [rad] headings that are tried
@@ -66,21 +66,20 @@ def _value(node: ast.expr, yaw: float, names: dict[str, ast.expr], depth: int = 
     raise _Unknown
 
 
-@suspicion
-def other_formulas(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.HEADING, ast.FunctionDef)
+def other_formulas(function: ast.FunctionDef) -> Words:
     """Find a heading that is computed of a quaternion, and is not the heading on flat ground."""
-    for function in functions(tree):
-        names: dict[str, ast.expr] = {}
-        for target, value in assigned(function):
-            if isinstance(target, ast.Name):
-                names[target.id] = ast.Constant(None) if target.id in names else value  # two values are unknown
-        given = [(t, v) for t, v in assigned(function) if NAMED.search(last_name(t))]
-        if NAMED.search(function.name):
-            given += [(n.value, n.value) for n in nodes_of(function, ast.Return) if n.value is not None]
-        for _, value in given:
-            said = _said(value, names) if _of_a_quaternion(value, names) else ""
-            if said:
-                yield value.lineno, About.HEADING, f"`{unparse(value)[:80]}` {said}"
+    names: dict[str, ast.expr] = {}
+    for target, value in assigned(function):
+        if isinstance(target, ast.Name):
+            names[target.id] = ast.Constant(None) if target.id in names else value  # two values are unknown
+    given = [(t, v) for t, v in assigned(function) if NAMED.search(last_name(t))]
+    if NAMED.search(function.name):
+        given += [(n.value, n.value) for n in nodes_of(function, ast.Return) if n.value is not None]
+    for _, value in given:
+        said = _said(value, names) if _of_a_quaternion(value, names) else ""
+        if said:
+            yield value, f"`{unparse(value)[:80]}` {said}"
 
 
 def _of_a_quaternion(value: ast.expr, names: dict[str, ast.expr], depth: int = DEEPEST) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
+    Words,
     assigned,
     called,
     calls,
@@ -19,8 +20,8 @@ from gz_course.grader.feedback.facts.syntax import (
     unparse,
     walk,
 )
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 BEFORE = ("exchanged_axes", "heading_formulas")
 
@@ -67,8 +68,8 @@ def _part(node: ast.AST, names: set[str]) -> str:
     return node.attr if of in names or of.endswith((".orientation", ".rotation")) else ""
 
 
-@suspicion
-def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANGLE)
+def headings_in_degrees(tree: ast.AST) -> Words:
     """Find a heading of a quaternion that a function returns in degrees, in a file that makes no radians of it."""
     if called(tree) & TO_RADIANS or _to_radians(tree):
         return
@@ -77,8 +78,7 @@ def headings_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
         value = node.value if isinstance(node, ast.Return) else None
         if aims and value is not None and _in_degrees(value) and _of_quaternion(value):
             yield (
-                value.lineno,
-                About.ANGLE,
+                value,
                 f"{unparse(value)[:60]} is a heading in degrees, and atan2 returns the direction to a place in "
                 "radians; both must be in one unit",
             )
@@ -114,8 +114,8 @@ def _wrong_heading(value: ast.expr, parts: set[str], names: set[str]) -> str:
     return ""
 
 
-@suspicion
-def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.HEADING)
+def quaternion_parts(tree: ast.AST) -> Words:
     """Find headings that are made of a quaternion in a wrong way."""
     names = _quaternions(tree)
     for value in _headings(tree):
@@ -124,7 +124,7 @@ def quaternion_parts(tree: ast.AST) -> Iterator[Suspect]:
             continue
         words = _wrong_heading(value, parts, names)
         if words and not (words.startswith("acos") and _signed(tree, names)):
-            yield value.lineno, About.HEADING, f"{unparse(value)[:60]} is taken for the heading: {words}"
+            yield value, f"{unparse(value)[:60]} is taken for the heading: {words}"
 
 
 def _in_degrees(value: ast.AST) -> bool:
@@ -135,8 +135,8 @@ def _to_radians(value: ast.AST) -> bool:
     return bool(re.search(r"pi / 180|/ 180(?:\.0)? \* (?:\w+\.)?pi", unparse(value)))
 
 
-@suspicion
-def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANGLE)
+def degrees_for_radians(tree: ast.AST) -> Words:
     """Find an angle in degrees in cos or sin, and one in radians that is converted to radians."""
     in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     of_scans = {
@@ -151,10 +151,10 @@ def degrees_for_radians(tree: ast.AST) -> Iterator[Suspect]:
         if name in SINES and given and not called(given[0]) & TO_RADIANS and not _to_radians(given[0]):
             parts = {unparse(each) for each in nodes_of(given[0], ast.Name, ast.Attribute)}
             if _in_degrees(given[0]) or parts & in_degrees:
-                yield node.lineno, About.ANGLE, f"{text} gets an angle in degrees: cos and sin take radians"
+                yield node, f"{text} gets an angle in degrees: cos and sin take radians"
         of_scan = given and (OF_SCANS.search(unparse(given[0])) or unparse(given[0]) in of_scans)
         if name in TO_RADIANS and of_scan and not _in_degrees(given[0]):
-            yield node.lineno, About.ANGLE, f"{text} converts what is in radians already: all angles of a scan are"
+            yield node, f"{text} converts what is in radians already: all angles of a scan are"
 
 
 def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
@@ -170,8 +170,8 @@ def _counting(value: ast.AST, known: dict[str, Number]) -> Iterator[ast.AST]:
         yield from _counting(child, known)
 
 
-@suspicion
-def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANGLE)
+def turning_rates_in_degrees(tree: ast.AST) -> Words:
     """Find an angular.z that is assigned degrees."""
     in_degrees = {unparse(target) for target, value in assigned(tree) if _in_degrees(value)}
     known = named_numbers(tree)
@@ -179,22 +179,21 @@ def turning_rates_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
         parts = {unparse(each) for each in _counting(value, known) if isinstance(each, ast.Name | ast.Attribute)}
         wrong = (_in_degrees(value) or parts & in_degrees) and not called(value) & TO_RADIANS
         if wrong and unparse(target).endswith("angular.z"):
-            yield value.lineno, About.ANGLE, "angular.z gets degrees per second here: it is in radians per second"
+            yield value, "angular.z gets degrees per second here: it is in radians per second"
 
 
-@suspicion
-def sine_first(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.HEADING, ast.Call)
+def sine_first(node: ast.Call) -> Words:
     """Find atan2 of x and y."""
-    for node in nodes_of(tree, ast.Call):
-        if last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
-            continue
-        first, second = (unparse(each) for each in node.args)
-        if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
-            yield node.lineno, About.HEADING, f"{unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
+    if last_name(node.func) not in ("atan2", "arctan2") or len(node.args) != 2:
+        return
+    first, second = (unparse(each) for each in node.args)
+    if X.search(first) and Y.search(second) and not Y.search(first) and not X.search(second):
+        yield f"{unparse(node)[:60]}: atan2 takes y first, atan2(y, x)"
 
 
-@suspicion
-def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANGLE)
+def degrees_beside_radians(tree: ast.AST) -> Words:
     """Find the sum or difference of an angle in degrees and the direction that atan2 returns."""
     values = list(assigned(tree))
     in_degrees = {unparse(target) for target, value in values if _in_degrees(value)}
@@ -207,8 +206,7 @@ def degrees_beside_radians(tree: ast.AST) -> Iterator[Suspect]:
             radians = unparse(other) in in_radians or _of_atan2(other)
             if degrees and radians:
                 yield (
-                    node.lineno,
-                    About.ANGLE,
+                    node,
                     f"`{unparse(node)[:70]}`: {unparse(one)[:40]} is in degrees, and {unparse(other)[:40]} "
                     "in radians; both must be in one unit, and the sines of Python and ROS's messages take radians",
                 )
@@ -219,8 +217,8 @@ def _of_atan2(value: ast.AST) -> bool:
     return bool(called(value) & {"atan2", "arctan2"}) and not _in_degrees(value) and isinstance(value, ast.Call)
 
 
-@suspicion
-def differences(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WRAP)
+def differences(tree: ast.AST) -> Words:
     """Find the difference of a direction and a heading in a file that brings no angle between -pi and pi."""
     text = unparse(tree)
     if re.search(
@@ -238,8 +236,7 @@ def differences(tree: ast.AST) -> Iterator[Suspect]:
         direction = called(node.left) & {"atan2", "arctan2"} or unparse(node.left) in aimed
         if HEADING.search(unparse(node.right)) and direction:
             yield (
-                node.lineno,
-                About.WRAP,
+                node,
                 f"{unparse(node)[:60]} is not brought between -pi and pi, so the robot may turn the long way round",
             )
 
@@ -253,8 +250,8 @@ def _of_quaternion(node: ast.AST) -> bool:
     return {"z", "w"} <= parts
 
 
-@suspicion
-def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.ANGLE)
+def limits_in_degrees(tree: ast.AST) -> Words:
     """Find an angle in radians that is compared with a number above pi, in a file that makes no degrees."""
     if called(tree) & (TO_DEGREES | TO_RADIANS) or not called(tree) & {"atan2", "arctan2"}:
         return
@@ -272,8 +269,7 @@ def limits_in_degrees(tree: ast.AST) -> Iterator[Suspect]:
         limit = number(node.comparators[0], known)
         if re.search(r"angle|bearing|heading|yaw|turn|theta", name) and limit is not None and MOST < limit <= 180:
             yield (
-                node.lineno,
-                About.ANGLE,
+                node,
                 f"`{unparse(node)[:60]}`: an angle in radians is at most 3.14, and {limit:g} degrees are "
                 f"{math.radians(limit):.2g}",
             )

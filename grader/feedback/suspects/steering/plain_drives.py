@@ -6,26 +6,27 @@ import ast
 from collections.abc import Callable, Iterator
 from functools import wraps
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, calls, kept, unparse
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, calls, kept, unparse
+from gz_course.grader.feedback.suspects import Suspicion, suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
-Rule = Callable[[ast.Module], Iterator[Suspect]]
 OTHER_TASKS = frozenset({
     "ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform", "declare_parameters",
 })  # fmt: skip
 
 
-def of_a_plain_drive(rule: Rule) -> Rule:
+def of_a_plain_drive(about: About) -> Callable[[Callable[[ast.Module], Words]], Suspicion]:
     """Register a suspect that is looked for in such files only."""
 
-    @suspicion
-    @wraps(rule)
-    def find(tree: ast.Module) -> Iterator[Suspect]:
-        if _is_plain_drive(tree):
-            yield from rule(tree)
+    def register(rule: Callable[[ast.Module], Words]) -> Suspicion:
+        @wraps(rule)
+        def find(tree: ast.Module) -> Words:
+            if _is_plain_drive(tree):
+                yield from rule(tree)
 
-    return find
+        return suspicion_of(about)(find)
+
+    return register
 
 
 @kept

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import called, calls, functions, hands_over, last_name, nodes_of, unparse
+from gz_course.grader.feedback.facts.syntax import (
+    Words,
+    called,
+    calls,
+    functions,
+    hands_over,
+    last_name,
+    nodes_of,
+    unparse,
+)
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import callbacks
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 SLEEPS = frozenset({"sleep", "sleep_for", "sleep_until"})
 CLOCKS = frozenset({"now", "time", "monotonic", "perf_counter", "time_ns", "monotonic_ns"})
@@ -16,8 +24,8 @@ THREADS = frozenset({"Thread", "start_new_thread", "MultiThreadedExecutor", "Thr
 SHORT = 0.05  # [s] of sleep that hardly delays anything
 
 
-@suspicion
-def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SLEEP)
+def sleeping_callbacks(tree: ast.AST) -> Words:
     """Find a sleep, or a loop until a time, in a callback or in a function of the file that one calls."""
     if called(tree) & THREADS:
         return
@@ -27,8 +35,7 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
             if name not in SLEEPS or (isinstance(value, int | float) and value < SHORT):
                 continue
             yield (
-                call.lineno,
-                About.SLEEP,
+                call,
                 f"{unparse(call)[:60]} sleeps in a callback ({function.name}): meanwhile the node hears no scan "
                 "and no odometry, and no timer fires, so it continues with old values; publish a command and return, "
                 "and look again in the next call",
@@ -38,8 +45,7 @@ def sleeping_callbacks(tree: ast.AST) -> Iterator[Suspect]:
                 continue
             if called(loop.test) & CLOCKS and not called(loop) & (SLEEPS | {"spin_once"}):
                 yield (
-                    loop.lineno,
-                    About.SLEEP,
+                    loop,
                     f"the loop `while {unparse(loop.test)[:60]}` waits in a callback ({function.name}): meanwhile "
                     "the node hears nothing, and no timer fires; return, and look again in the next call",
                 )

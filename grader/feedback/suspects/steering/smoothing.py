@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
 MANY = 8  # values of a mean
@@ -21,8 +21,8 @@ WORDS = (
 )
 
 
-@suspicion
-def means_over_time(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.DELAY)
+def means_over_time(tree: ast.Module) -> Words:
     """Find the mean of the last values that an attribute keeps from scan to scan."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
@@ -34,7 +34,7 @@ def means_over_time(tree: ast.Module) -> Iterator[Suspect]:
         read = [unparse(each) for given in of for each in nodes_of(given, ast.Attribute)]
         kept = next((each for each in read if sizes.get(each, 0) >= MANY), "")
         if kept:
-            yield call.lineno, About.DELAY, f"{unparse(call)[:60]}, of the last {sizes[kept]:g} values, {WORDS}"
+            yield call, f"{unparse(call)[:60]}, of the last {sizes[kept]:g} values, {WORDS}"
 
 
 def _sizes(tree: ast.Module) -> dict[str, float]:
@@ -154,8 +154,8 @@ def _weight(old: ast.expr, new: ast.expr, name: str, known: dict[str, int | floa
     return 1 - weight if any(each is not None and abs(each + weight - 1) < 1e-6 for each in given) else None
 
 
-@suspicion
-def delay_lines(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.DELAY)
+def delay_lines(tree: ast.Module) -> Words:
     """Find the oldest of many values, taken where the newest is meant: `self.last.popleft()`, `self.last[0]`."""
     if "angular.z" not in unparse(tree) or "LaserScan" not in unparse(tree):
         return
@@ -175,8 +175,7 @@ def delay_lines(tree: ast.Module) -> Iterator[Suspect]:
             continue
         if not any(part in text for part in (f"{oldest}[-1]", f"{oldest}.appendleft", f"{oldest}.insert")):
             yield (
-                value.lineno,
-                About.DELAY,
+                value,
                 f"{unparse(value)[:60]} is the oldest of {sizes[oldest]:g} values, so the robot answers what the "
                 "lidar saw that many scans ago, turns too late, and swings; use the newest",
             )

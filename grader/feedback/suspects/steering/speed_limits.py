@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, calls, last_name, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, last_name, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 LIMITING = ("min", "minimum", "clip", "clamp", "limited", "limit")
 
 
-@suspicion
-def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.SPEED_LIMIT)
+def at_least_the_limit(tree: ast.Module) -> Words:
     """Find a `max` of the parameter speed_limit and a speed, where no `min` or other function limits the result."""
     if "speed_limit" not in unparse(tree):
         return
@@ -24,11 +23,7 @@ def at_least_the_limit(tree: ast.Module) -> Iterator[Suspect]:
             continue
         for limit in call.args:
             if reads_limit(limit) or unparse(limit) in names:
-                yield (
-                    call.lineno,
-                    About.SPEED_LIMIT,
-                    f"{unparse(call)[:60]} is {unparse(limit)[:40]} at least; what limits a speed is min(...)",
-                )
+                yield call, f"{unparse(call)[:60]} is {unparse(limit)[:40]} at least; what limits a speed is min(...)"
 
 
 def limit_names(tree: ast.AST) -> set[str]:

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 NEAREST = re.compile(r"\b(?:min|nanmin|amin)\((?:\w+\.)*ranges\)|\.ranges\)?\.min\(\)|\bmin\(\w+(?:\.\w+)*\.ranges\)")
 
 
-@suspicion
-def stops_for_all_sides(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.STANDSTILL)
+def stops_for_all_sides(tree: ast.AST) -> Words:
     """Find `if min(scan.ranges) < 0.5: command.linear.x = 0.0`, where the test is true for what is behind, too."""
     nearest = {unparse(one) for one, value in assigned(tree) if NEAREST.search(unparse(value))}
     for node in nodes_of(tree, ast.If):
@@ -28,8 +27,7 @@ def stops_for_all_sides(tree: ast.AST) -> Iterator[Suspect]:
         if (stops or "Twist()" in unparse(body)) and not any(one.endswith("angular.z") for one in given):
             more = "" if called(body) - {"Twist", "publish"} else ", and as long as it stands nothing changes"
             yield (
-                node.lineno,
-                About.STANDSTILL,
+                node,
                 f"`if {test[:60]}` stops the robot for whatever is near on any side, also behind it{more}: look at the "
                 "rays ahead only, and turn",
             )

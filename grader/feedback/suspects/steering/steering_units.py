@@ -6,13 +6,12 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
 from gz_course.grader.feedback.facts.ros_parameters import reads
-from gz_course.grader.feedback.facts.syntax import assigned, calls, functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, functions, last_name, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 BEFORE = ("beyond_limits",)
 
@@ -31,8 +30,8 @@ def _steers(tree: ast.AST) -> bool:
     return "angular.z" in text and "LaserScan" in text
 
 
-@suspicion
-def degrees_in_gains(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.DEGREES)
+def degrees_in_gains(tree: ast.Module) -> Words:
     """Find an angle in degrees that goes into angular.z by a gain that is no gain per degree."""
     if not _steers(tree):
         return
@@ -49,7 +48,6 @@ def degrees_in_gains(tree: ast.Module) -> Iterator[Suspect]:
             if unparse(target).endswith("angular.z") and (line := _degrees(value, names, known)):
                 yield (
                     line,
-                    About.DEGREES,
                     "here an angle is in degrees, and angular.z is made of it as if it were in radians, so a heading "
                     "that is wrong by a few degrees already turns the robot as fast as it may; leave all angles in "
                     "radians",
@@ -109,8 +107,8 @@ def _degrees(node: ast.expr, names: dict[str, int], known: dict[str, Number]) ->
     return _degrees(node.operand, names, known) if isinstance(node, ast.UnaryOp) else 0
 
 
-@suspicion
-def centimetres(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.UNIT)
+def centimetres(tree: ast.Module) -> Words:
     """Find the parameter that says how far, or a range, that is multiplied by 100, 1000, or the inverse of them."""
     if not _steers(tree):
         return
@@ -123,33 +121,29 @@ def centimetres(tree: ast.Module) -> Iterator[Suspect]:
             factor, other = number(node.left, known), node.right
         if factor in HUNDREDS and any(id(each) in asked for each in walk(other)):
             yield (
-                node.lineno,
-                About.UNIT,
+                node,
                 f"{unparse(node)[:70]} is in another unit than metres, which the parameter and all ranges are in",
             )
 
 
-@suspicion
-def gains_behind_limits(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.LIMIT, ast.FunctionDef, first=True)
+def gains_behind_limits(function: ast.FunctionDef, tree: ast.Module) -> Words:
     """Find a rate that is limited first and then multiplied by a gain, or has something added, on its way out."""
     known = named_numbers(tree)
-    for function in functions(tree):
-        limited = {unparse(target) for target, value in assigned(function) if _is_limited(value, known)}
-        values = {unparse(target): value for target, value in assigned(function)}
-        for node in nodes_of(function, ast.BinOp):
-            if not isinstance(node.op, ast.Mult):
-                continue
-            for one, other in ((node.left, node.right), (node.right, node.left)):
-                gain = number(other, known)
-                inside = _is_limited(one, known) or unparse(one) in limited
-                if inside and gain is not None and abs(gain) > 1 and _goes_out(function, node, values):
-                    yield (
-                        node.lineno,
-                        About.LIMIT,
-                        f"{unparse(node)[:70]} multiplies by {gain:g} what is limited already, so it goes beyond "
-                        "the limit: limit last",
-                    )
-                    return
+    limited = {unparse(target) for target, value in assigned(function) if _is_limited(value, known)}
+    values = {unparse(target): value for target, value in assigned(function)}
+    for node in nodes_of(function, ast.BinOp):
+        if not isinstance(node.op, ast.Mult):
+            continue
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            gain = number(other, known)
+            inside = _is_limited(one, known) or unparse(one) in limited
+            if inside and gain is not None and abs(gain) > 1 and _goes_out(function, node, values):
+                yield (
+                    node,
+                    f"{unparse(node)[:70]} multiplies by {gain:g} what is limited already, so it goes beyond "
+                    "the limit: limit last",
+                )
 
 
 def _is_limited(node: ast.expr, known: dict[str, Number]) -> bool:
@@ -182,8 +176,8 @@ def _goes_out(function: ast.FunctionDef, node: ast.AST, values: dict[str, ast.ex
     return False
 
 
-@suspicion
-def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.FARTHEST)
+def least_tuples(tree: ast.Module) -> Words:
     """Find min() of tuples in which the range is not the first item, with no key."""
     if not _steers(tree):
         return
@@ -208,15 +202,14 @@ def least_tuples(tree: ast.Module) -> Iterator[Suspect]:
             items = [unparse(each) for each in row.elts]
             if items[0] not in single and set(items[1:]) & single:
                 yield (
-                    call.lineno,
-                    About.FARTHEST,
+                    call,
                     f"{unparse(call)[:60]} compares the first items of the tuples, {items[0][:30]}, and not their "
                     "ranges: put the range first, or pass a key",
                 )
 
 
-@suspicion
-def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.FARTHEST)
+def whole_metres(tree: ast.Module) -> Words:
     """Find int(r) and round(r) of a range: what is left are whole metres."""
     if not _steers(tree):
         return
@@ -229,15 +222,11 @@ def whole_metres(tree: ast.Module) -> Iterator[Suspect]:
         for call, name in calls(function):
             given = unparse(call.args[0]) if len(call.args) == 1 else ""
             if name in ("int", "round") and (given in single or ".ranges[" in given.partition("(")[0]):
-                yield (
-                    call.lineno,
-                    About.FARTHEST,
-                    f"{unparse(call)[:60]} makes whole metres of a range: leave it as it is",
-                )
+                yield call, f"{unparse(call)[:60]} makes whole metres of a range: leave it as it is"
 
 
-@suspicion
-def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
+@suspicion_of(About.ZERO)
+def zero_for_nothing(tree: ast.Module) -> Words:
     """Find a ray that hits nothing, or is not valid, that counts as 0 m."""
     if not _steers(tree):
         return
@@ -262,8 +251,7 @@ def zero_for_nothing(tree: ast.Module) -> Iterator[Suspect]:
                 zero = number(value, {}) == 0 and bool(re.search(r"isinf|isfinite|\binf\b|range_max", unparse(test)))
         if zero:
             yield (
-                node.lineno,  # type: ignore[attr-defined]
-                About.ZERO,
+                node,
                 f"{code[:80]} makes a ray that hits nothing the nearest of all, at 0 m: leave such rays out, or let "
                 "them count as far away",
             )

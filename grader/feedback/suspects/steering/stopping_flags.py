@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, functions, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, functions, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 
 BEFORE = ("endless_drives", "sleeps")
 
 
-@suspicion
-def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.STOPPED)
+def stops_for_ever(tree: ast.AST) -> Words:
     """Find `self.arrived = True` that nothing sets back, where `if self.arrived` returns or sends no speed."""
     if "ActionServer" in called(tree):
         return  # a goal that is done stays done
@@ -29,8 +28,7 @@ def stops_for_ever(tree: ast.AST) -> Iterator[Suspect]:
             continue
         if all(_is(value, True) for value in later) and (stop := _stop(tree, name)):
             yield (
-                later[0].lineno,
-                About.STOPPED,
+                later[0],
                 f"{name} becomes True here, and nothing sets it back to False: from then on line {stop} keeps the "
                 "robot where it is, however far it is behind",
             )

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 
-from gz_course.grader.feedback.facts.syntax import assigned, called, nodes_of, unparse, walk
-from gz_course.grader.feedback.suspects import suspicion
-from gz_course.grader.feedback.suspects.about import About, Suspect
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.suspects import suspicion_of
+from gz_course.grader.feedback.suspects.about import About
 from gz_course.grader.feedback.suspects.steering.headings import HEADING
 
 WHOLE_TURN = re.compile(r"2(?:\.0)? \* [\w.]*pi|[\w.]*pi \* 2|\btau\b|6\.28")
 AIMED = frozenset({"atan2", "arctan2"})
 
 
-@suspicion
-def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.SIGN)
+def wrong_side(tree: ast.AST) -> Words:
     """Find `angular.z = -1.2 if error > 0 else 1.2`, where the error is the direction of the goal minus the heading."""
     pairs = list(assigned(tree))
     aimed = {unparse(target) for target, value in pairs if called(value) & AIMED}
@@ -43,15 +42,14 @@ def wrong_side(tree: ast.AST) -> Iterator[Suspect]:
         if negative == (side > 0) and (negative or isinstance(given, ast.Constant)):
             goal, turn = ("left", "right") if side > 0 else ("right", "left")
             yield (
-                node.lineno,
-                About.SIGN,
+                node,
                 f"where {unparse(test)}, the goal is on the {goal}, and angular.z becomes {unparse(given)}, "
                 f"which turns the robot to the {turn}, away from its goal; a positive angular.z turns to the left",
             )
 
 
-@suspicion
-def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
+@suspicion_of(About.WRAP)
+def whole_turns(tree: ast.AST) -> Words:
     """Find `error = (atan2(dy, dx) - yaw) % (2 * pi)`, which is never negative, so all turns go to the left."""
     pairs = list(assigned(tree))
     aimed = {unparse(target) for target, value in pairs if called(value) & AIMED}
@@ -69,8 +67,7 @@ def whole_turns(tree: ast.AST) -> Iterator[Suspect]:
             continue
         if not re.search(rf"{re.escape(name)} (?:>=?|-=?) [\w.]*pi", text):  # what follows may bring it below pi
             yield (
-                value.lineno,
-                About.WRAP,
+                value,
                 f"`{unparse(value)[:80]}` lies between 0 and 2 pi, so a goal a little to the right is nearly a "
                 f"whole turn to the left: {name} must lie between -pi and pi, as remainder(..., 2 * pi) does",
             )
