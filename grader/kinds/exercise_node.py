@@ -29,7 +29,7 @@ def diagnosis() -> Diagnosis:
 
 def unreadable(recording: Recording, facts: dict[str, Any]) -> str:
     """Return why nothing can be made of the file, and what was mistaken in it."""
-    from gz_course.grader.feedback.errors.bridge_errors import bridge_meaning
+    from gz_course.grader.feedback.errors.launch_errors import bridge_meaning
     from gz_course.grader.score.diagnosis import cannot_run
 
     why = bridge_meaning(str(facts.get("fault") or ""))

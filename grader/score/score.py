@@ -9,7 +9,7 @@ import numpy as np
 
 from gz_course.grader.exercise import CheckSpec, Exercise
 from gz_course.grader.feedback.predictions.answers import agreed
-from gz_course.grader.feedback.recorded.source_places import made_in
+from gz_course.grader.feedback.recorded.places import made_in
 from gz_course.grader.feedback.rules import faults_kept, recorded_faults
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.record.reading import Recording
 
 from . import hall

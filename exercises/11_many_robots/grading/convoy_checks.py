@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gz_course.grader.feedback.errors.launch_errors import launch_meaning
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.graphs import bridges

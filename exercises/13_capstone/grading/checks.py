@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding

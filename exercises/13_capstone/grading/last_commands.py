@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz_course.grader.feedback.recorded.own_ends import ended_by_itself
+from gz_course.grader.feedback.recorded.places import ended_by_itself
 from gz_course.grader.record.reading import Recording
 
 LONG = 1.0  # [s] without a command, in which a robot goes on by the last one

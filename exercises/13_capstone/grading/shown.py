@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.record.reading import Recording
 
 from . import map_faults

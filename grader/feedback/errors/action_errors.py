@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording

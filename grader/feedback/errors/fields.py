@@ -7,7 +7,7 @@ import re
 from gz_course.grader.feedback.errors import explanation
 from gz_course.sim.did_you_mean import nearest_name
 
-BEFORE = ("values",)
+BEFORE = ("python_errors",)
 # Fields of the messages that beginners meet, for misspelt ones. Source: the packages of common_interfaces.
 FIELDS = {
     "LaserScan": (

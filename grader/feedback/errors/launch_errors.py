@@ -1,4 +1,6 @@
-"""Explanations for errors of launch files and of xacro whose own text does not say what to change.
+"""Explanations for errors of launch files, of xacro and of bridges whose own text does not say what to change.
+
+Source: the keys and values of ros_gz_bridge 1.0 (Jazzy), ros_gz_bridge/README.md.
 
 Source: the error texts of `launch` 3.4, `launch_ros` 0.26 and `xacro` 2.1, which are those of ROS 2 Jazzy.
 """
@@ -10,6 +12,24 @@ import re
 from gz_course.grader.feedback.errors import listed, table
 from gz_course.grader.feedback.rules import guarded
 
+# Pattern of an error -> what is mistaken. {0} is the first group of the pattern.
+OF_BRIDGES = table(r"""
+'(?:[^' ]*)([,;])' is |\S([,;]) is not a ROS message type|cannot become \S*([,;])(?:;|$)|must be .*, not \S*([,;])$
+    the {0} at the end is taken for a part of the value: YAML needs nothing at the end of a line, which ends a value by
+    itself
+cannot become ((?:gz|ignition)::\S+::\w+)|conversion is known for ((?:gz|ignition)::\S+)
+    {0} is the name of a class in C++; this file writes Gazebo's types with dots, gz.msgs.NAME
+(\w+::(?:msg::)?\w+) is not a ROS message type
+    {0} is the name of a class in C++; this file writes it with slashes, package/msg/Name
+the direction '([\[\]@])' is none of
+    {0} belongs to the topics on the command line of parameter_bridge; in this file, the direction is one of these words
+expected a bridge .*found the text '([^']*@[^']*)'
+    that is how a bridge is given on the command line; in this file, each of its parts has a key of its own
+found the text '\w+ ?(=)
+    between a key and its value stand a colon and a space in YAML, and no {0}
+expected <block end>, but found '(?:\?|<block)[^;]*$
+    a line is indented differently from those it belongs to: all keys of one entry begin in the same column
+""")
 # Module of each name that launch files import.
 MODULES = {
     "launch": ("LaunchDescription", "LaunchService"),
@@ -32,7 +52,6 @@ MODULES = {
     "pathlib": ("Path",),
 }  # fmt: skip
 NOT_IMPORTED = re.compile(r"(?:NameError: name|ImportError: cannot import name) '(\w+)'")
-
 # Pattern of an error -> what to change. {0} is the first group of the pattern.
 MEANINGS = table(r"""
 \.py' cannot be started: it is not executable
@@ -123,6 +142,15 @@ mismatched tag|not well-formed|no element found
 (?:No such file or directory: |there is no program )'([\w/.-]+ [^']*)'
     the whole command line is one word of the list: cmd takes each word by itself, ['gz', 'sim', ...]
 """)
+
+
+@guarded("")
+def bridge_meaning(error: str) -> str:
+    """Return what is mistaken for what, given the text of an error; empty if it is unknown."""
+    for pattern, words in OF_BRIDGES:
+        if match := pattern.search(error):
+            return words.format(next((group for group in match.groups() if group), ""))
+    return ""
 
 
 @guarded("")

@@ -13,7 +13,7 @@ from gz_course.grader.feedback.facts.syntax import last_name, nodes_of, unparse,
 from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 from gz_course.grader.feedback.launch_files.ros_arguments import command_words
-from gz_course.grader.feedback.launch_files.sim_time import texts_of
+from gz_course.grader.feedback.launch_files.stated import texts_of
 
 SIM_TIME = "use_sim_time"
 OPTION = re.compile(r"--?[a-zA-Z]")

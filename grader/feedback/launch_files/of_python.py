@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place
-from gz_course.grader.feedback.slips.language.late_binding import late_bound
 from gz_course.grader.feedback.slips.language.no_effect import first_iteration
-from gz_course.grader.feedback.slips.language.shared_objects import one_list_for_all
+from gz_course.grader.feedback.slips.language.shared_objects import late_bound, one_list_for_all
 from gz_course.grader.feedback.slips.nodes.scan_callbacks import kept_defaults
 
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.feedback.rules import Room, ask
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording

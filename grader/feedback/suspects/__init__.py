@@ -1,7 +1,7 @@
 """Places that are wrong in most programs that misunderstand angles, headings, gyroscopes, rays, goals or drives.
 
 Each suspect says what it is about. A check that has seen the symptom in the recording names the suspect of that kind
-(`grader/feedback/recorded/suspects.py`); without a symptom nobody hears of it. A suspect is a function of a syntax tree
+(`grader/feedback/recorded/places.py`); without a symptom nobody hears of it. A suspect is a function of a syntax tree
 under `@suspicion` that yields a line, what it is about (`about.py`), and the words of a sentence.
 """
 

@@ -9,17 +9,13 @@ import tokenize
 import warnings
 from typing import TYPE_CHECKING
 
-from gz_course.grader.feedback.facts.counters import counters
-from gz_course.grader.feedback.facts.delays import delays
-from gz_course.grader.feedback.facts.early_publishing import early_publishing
+from gz_course.grader.feedback.facts.clocks import time_reckoning, wall_clock
 from gz_course.grader.feedback.facts.logs import seldom_log, silent_log
 from gz_course.grader.feedback.facts.origins import before_speeds, conditions, of_the_drive, origins
 from gz_course.grader.feedback.facts.own_ends import own_ends
-from gz_course.grader.feedback.facts.repetitions import repetitions
+from gz_course.grader.feedback.facts.publishing import counters, delays, early_publishing, repetitions
 from gz_course.grader.feedback.facts.rhythm import rhythm
 from gz_course.grader.feedback.facts.syntax import called, parsed
-from gz_course.grader.feedback.facts.time_reckoning import time_reckoning
-from gz_course.grader.feedback.facts.wall_clock import wall_clock
 from gz_course.grader.feedback.facts.whole_numbers import whole_numbers
 from gz_course.grader.feedback.rules import as_facts, faults_kept
 from gz_course.grader.feedback.slips import slips

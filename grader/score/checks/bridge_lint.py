@@ -12,7 +12,7 @@ from pathlib import PurePath
 from typing import Any
 
 from gz_course.grader.exercise.toml_table import Table
-from gz_course.grader.feedback.errors.bridge_errors import bridge_meaning
+from gz_course.grader.feedback.errors.launch_errors import bridge_meaning
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.graphs import bridges

@@ -18,7 +18,7 @@ import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.feedback.predictions.of_robots import driving
-from gz_course.grader.feedback.predictions.of_robots.overlaps import overlap
+from gz_course.grader.feedback.predictions.of_robots.creating import overlap
 from gz_course.grader.feedback.predictions.of_robots.topics import commands_elsewhere, why_not_carried
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording, Signal

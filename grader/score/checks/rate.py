@@ -16,8 +16,7 @@ import re
 import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
-from gz_course.grader.feedback.recorded.own_ends import ended_by_itself
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import ended_by_itself, suspect
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind

@@ -13,8 +13,7 @@ from __future__ import annotations
 import math
 
 from gz_course.grader.exercise.toml_table import Table
-from gz_course.grader.feedback.predictions.of_robots.description import at_work_on, description_meaning
-from gz_course.grader.feedback.predictions.of_robots.placing import misplaced
+from gz_course.grader.feedback.predictions.of_robots.creating import at_work_on, description_meaning, misplaced
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import (

@@ -15,8 +15,7 @@ import numpy as np
 
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.feedback.predictions.of_robots import standing
-from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass
-from gz_course.grader.feedback.predictions.of_robots.overlaps import overlap
+from gz_course.grader.feedback.predictions.of_robots.creating import odd_mass, overlap
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, check_kind
 from gz_course.grader.score.launched import launch_facts

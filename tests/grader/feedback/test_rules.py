@@ -15,7 +15,7 @@ from gz_course.grader.feedback.errors.python_errors import meaning
 from gz_course.grader.feedback.facts.syntax import DEEPEST, Place, Words, places_in
 from gz_course.grader.feedback.launch_files import launch_places
 from gz_course.grader.feedback.predictions import answers, commands, tables
-from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass
+from gz_course.grader.feedback.predictions.of_robots.creating import odd_mass
 from gz_course.grader.feedback.rules import Fault, Room, as_facts, ask, faults_kept, guarded, recorded_faults
 from gz_course.grader.feedback.suspects.about import About, Suspect
 from gz_course.grader.registry import modules_below

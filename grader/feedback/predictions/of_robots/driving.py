@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass
+from gz_course.grader.feedback.predictions.of_robots.creating import odd_mass
 from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.robots import Joint, Link, Plugin, Robot, Shape
 from gz_course.grader.score.steps import told

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from gz_course.grader.feedback.predictions.of_robots.creating import odd_mass, too_light
 from gz_course.grader.feedback.predictions.of_robots.driving import (
     hangs,
     lies_flat,
@@ -12,7 +13,6 @@ from gz_course.grader.feedback.predictions.of_robots.driving import (
     without_collision,
     wrong_axis,
 )
-from gz_course.grader.feedback.predictions.of_robots.masses import odd_mass, too_light
 from gz_course.grader.feedback.rules import guarded
 from gz_course.grader.score.robots import LEVEL, Robot
 from gz_course.grader.score.steps import told

@@ -1,18 +1,38 @@
-"""Angles in the wrong unit or form: degrees for sin and cos, x and y of atan2 exchanged, rays counted from the end."""
+"""Angles in the wrong unit, form or order, and pairs of sums of cosines and sines that turn no point.
+
+Source: https://en.wikipedia.org/wiki/Rotation_matrix (in two dimensions).
+"""
 
 from __future__ import annotations
 
 import ast
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Words,
+    assigned,
+    children,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
 from gz_course.grader.feedback.slips import slip, slip_of
 
 OF_ANGLES = frozenset({"sin", "cos", "tan"})
 IN_RADIANS = frozenset({"angle_min", "angle_max", "angle_increment"})
+MAKES = "euler_from_quaternion"
+HEADING = re.compile(r"yaw|heading|theta|\bth\b")
+ORDER = ("roll", "pitch", "yaw")
+SOME = 0.7  # [rad] at which a pair is tried
+APART = 3  # lines between the two
+Row = dict[str, float]  # by factor, what it is multiplied with
+Pair = tuple[tuple[ast.BinOp, Row], tuple[ast.BinOp, Row]]
 
 
 def _calls(tree: ast.AST) -> Iterator[tuple[ast.Call, str]]:
@@ -151,3 +171,127 @@ def exchanged_sines(function: ast.FunctionDef, tree: ast.AST) -> Words:
             f"x = {unparse(found['x', 'sin'])[:60]}: the angle of a ray counts from straight ahead, so x, "
             "ahead, has its cosine, and y, to the left, its sine",
         )
+
+
+def _is_euler(node: ast.AST) -> bool:
+    return isinstance(node, ast.Call) and last_name(node.func) == MAKES
+
+
+@slip
+def other_angle(tree: ast.AST) -> Iterator[Place]:
+    """Find `yaw, pitch, roll = euler_from_quaternion(q)`, and its first element taken for the heading."""
+    if MAKES in {function.name for function in functions(tree)}:
+        return  # one of the student's own may return them in any order
+    names = {unparse(target) for target, value in assigned(tree) if _is_euler(value)}
+    for node in nodes_of(tree, ast.Assign):
+        target, value = node.targets[0], node.value
+        if isinstance(target, ast.Tuple | ast.List) and len(target.elts) == len(ORDER):
+            if _is_euler(value) or unparse(value) in names:
+                for place, each in enumerate(target.elts[:2]):
+                    if HEADING.search(unparse(each).lower()):
+                        yield node.lineno, _said(unparse(each), place)
+        elif isinstance(value, ast.Subscript) and (_is_euler(value.value) or unparse(value.value) in names):
+            index = value.slice.value if isinstance(value.slice, ast.Constant) else None
+            if isinstance(index, int) and index in (0, 1) and HEADING.search(unparse(target).lower()):
+                yield node.lineno, _said(unparse(target), index)
+
+
+def _said(name: str, place: int) -> str:
+    return (
+        f"{name} gets the {ORDER[place]}, which is nearly 0 on flat ground: {MAKES}() returns roll, pitch and yaw, in "
+        "this order"
+    )
+
+
+@slip_of(ast.Call)
+def other_order(call: ast.Call) -> Words:
+    """Find `euler_from_quaternion([q.w, q.x, q.y, q.z])`: w is the last one."""
+    name = last_name(call.func)
+    given = call.args[0] if call.args else None
+    if name == MAKES and isinstance(given, ast.List | ast.Tuple):
+        parts = "".join(last_name(each) for each in given.elts)
+        if sorted(parts) == sorted("xyzw") and parts != "xyzw":
+            yield f"{MAKES}() takes x, y, z, w in this order, and gets {', '.join(parts)}"
+
+
+def pairs(tree: ast.AST) -> Iterator[tuple[ast.FunctionDef, Pair]]:
+    """Yield two sums near each other of cosines and sines of one angle, times the same two factors."""
+    for function in functions(tree):
+        waves = {
+            unparse(target): value
+            for target, value in assigned(function)
+            if isinstance(value, ast.Call) and last_name(value.func) in ("cos", "sin")
+        }
+        parts = {id(each) for node in walk(function) if _is_sum(node) for each in children(node)}
+        sums = sorted(
+            (node for node in nodes_of(function, ast.BinOp) if id(node) not in parts),
+            key=lambda node: (node.lineno, node.col_offset, -(node.end_col_offset or 0)),
+        )
+        rows = [(node, *found) for node in sums if (found := _row(node, waves)) is not None]
+        for (first, angle, row), (second, other, below) in zip(rows[::2], rows[1::2], strict=False):
+            if angle != other or set(row) != set(below) or second.lineno - first.lineno > APART:
+                continue
+            yield function, ((first, row), (second, below))
+
+
+@slip
+def no_rotation(tree: ast.AST) -> Iterator[Place]:
+    """Find `x = a * cos(h) - b * sin(h)` with `y = a * cos(h) + b * sin(h)`."""
+    for _, ((first, row), (second, below)) in pairs(tree):
+        (a, b), (c, d) = row.values(), (below[name] for name in row)
+        if abs(a * d - b * c) < 1e-6:
+            continue  # the same coordinate twice
+        if max(abs(a * a + b * b - 1), abs(c * c + d * d - 1), abs(a * c + b * d)) > 1e-6:
+            one, two = row
+            yield (
+                second.lineno,
+                f"{unparse(first)[:50]} and {unparse(second)[:50]} do not turn a point: it is {one} * cos - {two} * "
+                f"sin for x and {one} * sin + {two} * cos for y, if {one} is ahead and {two} to the left",
+            )
+
+
+@slip
+def changed_between(tree: ast.AST) -> Iterator[Place]:
+    """Find `x = x * c - y * s` with `y = x * s + y * c` after it, which reads the x that has changed."""
+    for function, ((first, row), (second, _)) in pairs(tree):
+        made = {id(each.value): unparse(each.targets[0]) for each in nodes_of(function, ast.Assign)}
+        changed, other = made.get(id(first), ""), made.get(id(second), "")
+        if changed in row and other in row and changed != other:
+            yield (
+                second.lineno,
+                f"{other} = {unparse(second)[:50]} reads {changed}, which line {first.lineno} has changed: the "
+                f"old one belongs here; assign both at once, {changed}, {other} = ..., ...",
+            )
+
+
+def _is_sum(node: ast.AST) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub)
+
+
+def _row(node: ast.BinOp, waves: Mapping[str, ast.expr]) -> tuple[str, Row] | None:
+    """Return the angle and the factors of cosine and sine in a sum of two such products; None for anything else."""
+    found: list[tuple[str, str, float]] = []
+    for term, sign in _terms(node, 1.0):
+        if isinstance(term, ast.BinOp) and isinstance(term.op, ast.Mult):
+            for wave, factor in ((term.left, term.right), (term.right, term.left)):
+                call = waves.get(unparse(wave), wave)
+                if isinstance(call, ast.Call) and last_name(call.func) in ("cos", "sin") and len(call.args) == 1:
+                    size = getattr(math, last_name(call.func))(SOME)
+                    found.append((unparse(call.args[0]), unparse(factor), sign * size))
+                    break
+    if len(found) != 2 or found[0][0] != found[1][0] or found[0][1] == found[1][1]:
+        return None
+    return found[0][0], {factor: size for _, factor, size in found}
+
+
+def _terms(node: ast.expr, sign: float) -> Iterator[tuple[ast.expr, float]]:
+    match node:
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() as op, right=right):
+            yield from _terms(left, sign)
+            yield from _terms(right, sign if isinstance(op, ast.Add) else -sign)
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            yield from _terms(inner, -sign)
+        case ast.BinOp(left=ast.UnaryOp(op=ast.USub(), operand=inner), op=ast.Mult(), right=right):
+            yield ast.BinOp(left=inner, op=ast.Mult(), right=right), -sign
+        case _:
+            yield node, sign

@@ -1,4 +1,4 @@
-"""Conditions that hold always or never: of two bounds, of a name that stays None, of a name that is made None again."""
+"""Conditions that hold always or never: of two bounds, of None, of a state in another spelling, of what stays."""
 
 from __future__ import annotations
 
@@ -9,9 +9,12 @@ from gz_course.grader.feedback.facts.constants import Number, named_numbers, num
 from gz_course.grader.feedback.facts.syntax import Place, Words, assigned, is_none, nodes_of, unparse, walk
 from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.language.unreached import blocks
+from gz_course.sim.did_you_mean import nearest_name
 
 ABOVE, BELOW = (ast.Gt, ast.GtE), (ast.Lt, ast.LtE)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE, ast.Lt: ast.Gt, ast.LtE: ast.GtE}
+NEAR = 0.75  # how alike two names of one state are
+FEWEST = 3  # letters of a name
 
 
 @slip
@@ -215,3 +218,125 @@ def flag_of_its_own_block(owner: ast.ClassDef) -> Words:
                         f"the code below this condition never runs: {name} is {first} from the start, and only "
                         "these lines change it",
                     )
+
+
+@slip_of(ast.FunctionDef)
+def returns_when_there(function: ast.FunctionDef) -> Words:
+    """Find `if self.x is not None: return` before lines that use parts of `self.x`, which is None there."""
+    for place, node in enumerate(function.body):
+        if not isinstance(node, ast.If) or node.orelse or unparse(node.body[-1]) not in ("return", "return None"):
+            continue
+        for name in _there(node.test):
+            if _uses(function.body[place + 1 :], name):
+                yield (
+                    node,
+                    f"{function.name} returns here when {name} is there, and the lines below use it, where it is "
+                    f"None: if {name} is None",
+                )
+
+
+def _there(test: ast.expr) -> Iterator[str]:
+    """Yield the attributes of self of which one that is not None makes a condition true."""
+    if isinstance(test, ast.BoolOp) and isinstance(test.op, ast.Or):
+        for each in test.values:
+            yield from _there(each)
+    elif isinstance(test, ast.Compare) and isinstance(test.ops[0], ast.IsNot):
+        name, none = unparse(test.left), unparse(test.comparators[0])
+        yield from [name] if none == "None" and name.startswith("self.") else []
+
+
+def _uses(body: list[ast.stmt], name: str) -> bool:
+    """Return whether statements use parts of an attribute before one of them sets it."""
+    for statement in body:
+        nodes = list(walk(statement))
+        if any(isinstance(node, ast.Attribute) and _stores(node, name) for node in nodes):
+            return False
+        for node in nodes:
+            parts = isinstance(node, ast.Attribute | ast.Subscript) and unparse(node.value) == name
+            unpacked = (
+                isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple) and unparse(node.value) == name
+            )
+            if parts or unpacked:
+                return True
+    return False
+
+
+def _stores(node: ast.Attribute, name: str) -> bool:
+    return isinstance(node.ctx, ast.Store) and unparse(node) == name
+
+
+@slip
+def other_spelling(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.state = 'Stop'` where only `self.state == 'stop'` is asked for."""
+    given: dict[str, dict[str, int]] = {}
+    unknown: set[str] = set()
+    for target, value in assigned(tree):
+        name = unparse(target)
+        if isinstance(value, ast.Constant) and isinstance(value.value, str):
+            given.setdefault(name, {}).setdefault(value.value, target.lineno)
+        else:
+            unknown.add(name)
+    elsewhere = {name.rpartition(".")[2] for name in given.keys() | unknown if not name.startswith("self.")}
+    asked: dict[str, dict[str, int]] = {}
+    equal: set[tuple[str, str]] = set()
+    for node in walk(tree):
+        match node:
+            case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq()], comparators=[ast.Constant(value=str(text))]):
+                asked.setdefault(unparse(left), {}).setdefault(text, node.lineno)
+                if isinstance(node.ops[0], ast.Eq):
+                    equal.add((unparse(left), text))
+    for name in given.keys() & asked.keys() - unknown:
+        for text, line in asked[name].items():
+            unasked = [each for each in given[name] if each not in asked[name] and len(each) >= FEWEST]
+            if text not in given[name] and (near := _alike(text, unasked)):
+                yield (
+                    line,
+                    f"{name} is never {text!r}: line {given[name][near]} sets it to {near!r}, which is spelt otherwise",
+                )
+            elif text in given[name] or (name, text) not in equal or name.rpartition(".")[2] in elsewhere:
+                continue
+            elif name.startswith("self.") and given[name].keys() - asked[name].keys():
+                values = ", ".join(repr(each) for each in list(given[name])[:4])
+                yield line, f"{name} is never {text!r}, so this condition never holds: it is set to {values}"
+
+
+def _alike(text: str, names: list[str]) -> str:
+    same = next((each for each in names if each.casefold() == text.casefold()), "")
+    return same or nearest_name(text, names, NEAR) or ""
+
+
+def _numbers(test: ast.expr) -> set[str]:
+    """Return the names in a comparison of names and numbers; nothing if it holds anything else."""
+    if not isinstance(test, ast.Compare) or isinstance(test.ops[0], ast.Is | ast.IsNot | ast.In | ast.NotIn):
+        return set()
+    sides = [test.left, *test.comparators]
+    names = {each.id for each in sides if isinstance(each, ast.Name)}
+    numbers = [each for each in sides if isinstance(each, ast.Constant) and isinstance(each.value, int | float)]
+    return names if numbers and len(names) + len(numbers) == len(sides) else set()
+
+
+def _leaves(loop: ast.While) -> bool:
+    """Return whether a loop is left in another way than by a cancellation."""
+    asked = [each for each in nodes_of(loop, ast.If) if "cancel" in unparse(each.test)]
+    cancelled = {id(node) for each in asked for part in each.body for node in walk(part)}
+    ways = (ast.Break, ast.Return, ast.Raise, ast.Yield, ast.Await)
+    return any(isinstance(each, ways) and id(each) not in cancelled for each in walk(loop))
+
+
+@slip_of(ast.FunctionDef)
+def never_changes(function: ast.FunctionDef) -> Words:
+    """Find `while left > 0.1:` where left was computed above the loop, and nowhere in it."""
+    shared = {n for each in nodes_of(function, ast.Global, ast.Nonlocal) for n in each.names}
+    stores = [n for n in nodes_of(function, ast.Name) if isinstance(n.ctx, ast.Store)]
+    for loop in nodes_of(function, ast.While):
+        names = _numbers(loop.test)
+        inside = {id(node) for node in walk(loop)}
+        above = [n for n in stores if n.id in names and n.lineno < loop.lineno and id(n) not in inside]
+        changed = {n.id for n in stores if id(n) in inside} | shared
+        if names and not names & changed and {n.id for n in above} == names and not _leaves(loop):
+            last = max(above, key=lambda node: node.lineno)
+            yield (
+                loop,
+                f"nothing in this loop changes {last.id}, which line {last.lineno} has computed, so "
+                f"`{unparse(loop.test)[:60]}` stays as it is: compute it again in every iteration",
+            )

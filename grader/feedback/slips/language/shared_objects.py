@@ -1,12 +1,179 @@
-"""One object, list or attribute of a class that keeps what belongs to several: what one stores, the others get."""
+"""One object, list, array or variable for several: what one stores, the others get.
+
+Source: https://docs.python.org/3/faq/programming.html, "Why do lambdas defined in a loop with different values all
+return the same result?"
+"""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from gz_course.grader.feedback.facts.syntax import Place, assigned, calls, functions, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips import slip
+from gz_course.grader.feedback.facts.syntax import (
+    Place,
+    Words,
+    assigned,
+    calls,
+    children,
+    functions,
+    last_name,
+    nodes_of,
+    unparse,
+    walk,
+)
+from gz_course.grader.feedback.slips import slip, slip_of
+
+Function = ast.Lambda | ast.FunctionDef
+# What keeps a function that it is given, and calls it later. `sorted` and `map` call it at once.
+LATER = frozenset({
+    "OpaqueFunction", "OnProcessStart", "OnProcessExit", "OnProcessIO", "OnShutdown", "OnExecutionComplete",
+    "create_subscription", "create_timer", "create_service", "add_done_callback", "add_on_set_parameters_callback",
+    "registerCallback",
+})  # fmt: skip
+Comprehension = ast.ListComp | ast.GeneratorExp | ast.SetComp | ast.DictComp
+MAKES = frozenset({"zeros", "ones", "full", "empty", "array", "zeros_like", "list", "dict", "set"})
+CHANGES = frozenset({"append", "extend", "add", "update", "fill", "insert"})
+
+
+@slip
+def late_bound(tree: ast.AST) -> Iterator[Place]:
+    """Find a function that reads the variable of a loop when the loop has given it its last value."""
+    for loop in walk(tree):
+        parts: Sequence[ast.AST]
+        if isinstance(loop, ast.For):
+            parts, bound = loop.body, _stored(loop.target)
+            bound |= {name for part in parts for name in _stored(part)}
+        elif isinstance(loop, Comprehension):
+            parts = [loop.key, loop.value] if isinstance(loop, ast.DictComp) else [loop.elt]
+            bound = {name for each in loop.generators for name in _stored(each.target)}
+        else:
+            continue
+        if not any(isinstance(each, ast.Return | ast.Break) for part in parts for each in _own(part)):
+            yield from _in_loop(parts, bound)
+
+
+def _in_loop(parts: Sequence[ast.AST], bound: set[str]) -> Iterator[Place]:
+    nodes = [each for part in parts for each in _own(part)]
+    named = {each.name: each for each in nodes if isinstance(each, ast.FunctionDef)}
+    for call in (each for each in nodes if isinstance(each, ast.Call)):
+        if unparse(call.func).rpartition(".")[2] not in LATER:
+            continue
+        for given in [*call.args, *(each.value for each in call.keywords)]:
+            function = named.get(given.id) if isinstance(given, ast.Name) else given
+            if not isinstance(function, Function):
+                continue
+            free = sorted(_read(function) & bound - _own_names(function))
+            if free:
+                name, what = free[0], "lambda" if isinstance(function, ast.Lambda) else f"function {function.name}"
+                written = [each.arg for each in function.args.args]
+                head = ", ".join([*written, f"{name}={name}"])
+                right = f"lambda {head}:" if isinstance(function, ast.Lambda) else f"def {function.name}({head})"
+                yield (
+                    function.lineno,
+                    f"this {what} reads {name} when it is called, and the loop is over then: every one of them gets "
+                    f"the last value of {name}. A default keeps the value of this iteration, {right}",
+                )
+
+
+def _own(part: ast.AST) -> Iterator[ast.AST]:
+    """Yield the nodes of a part of a loop, without those inside of a function that is made there."""
+    yield part
+    if isinstance(part, ast.Lambda | ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return
+    for child in children(part):
+        yield from _own(child)
+
+
+def _stored(part: ast.AST) -> set[str]:
+    return {each.id for each in _own(part) if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Store)}
+
+
+def _read(function: Function) -> set[str]:
+    body = function.body if isinstance(function.body, list) else [function.body]
+    names = (each for part in body for each in nodes_of(part, ast.Name))
+    return {each.id for each in names if isinstance(each.ctx, ast.Load)}
+
+
+def _own_names(function: Function) -> set[str]:
+    """Return the names that a function binds itself: its parameters, and what it assigns."""
+    bound = {each.arg for each in nodes_of(function, ast.arg)}
+    return bound | {each.id for each in nodes_of(function, ast.Name) if isinstance(each.ctx, ast.Store)}
+
+
+@slip
+def one_array(tree: ast.AST) -> Iterator[Place]:
+    """Find `self.hits = self.passes = np.zeros(...)`, and `self.passes = self.hits`, where both are changed."""
+    changed = _changed(tree)
+    made: set[str] = set()
+    for function in (each for each in functions(tree) if each.name == "__init__"):
+        for node in nodes_of(function, ast.Assign):
+            names = [unparse(target) for target in node.targets]
+            if _makes(node.value):
+                made |= set(names)
+            elif unparse(node.value) in made:
+                names.append(unparse(node.value))
+            both = [name for name in names if name in changed]
+            if len(both) > 1 and (_makes(node.value) or unparse(node.value) in made):
+                yield (
+                    node.lineno,
+                    f"{unparse(node)[:70]} gives one array two names, so what is added to {both[0]} is in "
+                    f"{both[1]}, too: make each of its own",
+                )
+
+
+@slip_of(ast.FunctionDef)
+def one_local(function: ast.FunctionDef) -> Words:
+    """Find `misses = hits = set()` in a function that adds to both by different calls."""
+    for node in (each for each in nodes_of(function, ast.Assign) if len(each.targets) > 1):
+        names = [each.id for each in node.targets if isinstance(each, ast.Name)]
+        new = {unparse(one) for one, _ in assigned(function) if one not in node.targets}
+        added = [
+            name
+            for name in names
+            if any(each in CHANGES and unparse(call.func).startswith(f"{name}.") for call, each in calls(function))
+        ]
+        if _makes(node.value) and len(added) > 1 and not new & set(names):
+            yield (
+                node,
+                f"{unparse(node)[:70]} gives one collection two names, so what is added to {added[0]} is in "
+                f"{added[1]}, too: make each of its own",
+            )
+
+
+def _makes(value: ast.expr) -> bool:
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult):
+        return isinstance(value.left, ast.List)
+    return isinstance(value, ast.List | ast.Dict) or (isinstance(value, ast.Call) and last_name(value.func) in MAKES)
+
+
+def _changed(tree: ast.AST) -> set[str]:
+    """Return the attributes whose parts are changed in place, in a function of the file that gets them, too."""
+    changing = {each.name: _parts_set(each) for each in functions(tree)}
+    found = set().union(*changing.values()) if changing else set()
+    for call, name in calls(tree):
+        if isinstance(call.func, ast.Attribute) and name in CHANGES:
+            found.add(unparse(call.func.value))
+        if unparse(call.func).endswith("add.at") and call.args:
+            found.add(unparse(call.args[0]))
+        own = next((each for each in functions(tree) if each.name == name), None)
+        if own is not None:
+            names = [each.arg for each in own.args.args if each.arg != "self"]
+            for parameter, given in zip(names, call.args, strict=False):
+                if parameter in changing[own.name]:
+                    found.add(unparse(given))
+    return {each for each in found if each.startswith("self.")}
+
+
+def _parts_set(function: ast.FunctionDef) -> set[str]:
+    """Return the names of which parts are assigned."""
+    found = set()
+    for node in nodes_of(function, ast.Subscript):
+        whole: ast.expr = node
+        while isinstance(whole, ast.Subscript):
+            whole = whole.value
+        if isinstance(node.ctx, ast.Store):
+            found.add(unparse(whole))
+    return found
 
 
 @slip

@@ -19,7 +19,7 @@ from gz_course.grader.feedback.facts.syntax import (
 from gz_course.grader.feedback.slips import slip, slip_of
 from gz_course.grader.feedback.slips.language.unreached import blocks
 
-BEFORE = ("endless_spins",)
+BEFORE = ("endless_waits",)
 
 SPINS = frozenset(
     {"spin", "spin_once", "spin_some", "spin_until_future_complete", "wait_for_message", "wait_for_service"}

@@ -19,7 +19,7 @@ from gz_course.grader.feedback.facts.syntax import (
 from gz_course.grader.feedback.suspects import suspicion_of
 from gz_course.grader.feedback.suspects.about import About
 
-BEFORE = ("answers",)
+BEFORE = ("goals",)
 
 TURNS = frozenset({"Lock", "RLock", "Semaphore", "BoundedSemaphore"})
 ENDS = frozenset({"succeed", "canceled", "abort"})

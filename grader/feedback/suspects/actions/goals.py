@@ -1,15 +1,18 @@
-"""Suspects in how an action server takes goals: what it refuses, how it ends a cancelled one, what it keeps of one."""
+"""Suspects in how an action server takes goals: what it refuses or accepts, how it ends one, what it keeps of it."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
     Words,
     assigned,
     called,
+    calls,
     functions,
+    is_none,
     last_name,
     nodes_of,
     unparse,
@@ -18,10 +21,44 @@ from gz_course.grader.feedback.facts.syntax import (
 from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
+ASKS = "is_cancel_requested"
 # Comparisons of a length with a number that tell an empty list from all others.
 TELLS_EMPTY = frozenset({(ast.Eq, 0), (ast.NotEq, 0), (ast.Gt, 0), (ast.LtE, 0), (ast.Lt, 1), (ast.GtE, 1)})
 GROWS = frozenset({"append", "extend", "appendleft"})
 EMPTIES = frozenset({"clear", "pop", "popleft", "remove"})
+LIMIT = "max_speed"
+
+
+def _answers(function: ast.FunctionDef) -> tuple[str, str] | None:
+    """Return what a function returns where a goal is to be cancelled, and otherwise; None if that is the same."""
+    asked = [
+        each for each in nodes_of(function, ast.If) if ASKS in unparse(each.test)
+    ]  # fmt: skip
+    inside = [part for each in asked for part in each.body if isinstance(part, ast.Return)]
+    others = [each for each in nodes_of(function, ast.Return) if each not in inside]
+    if not inside or inside[0].value is None:
+        return None
+    then = unparse(inside[0].value)
+    otherwise = [unparse(each.value) for each in others if each.value is not None]
+    constant = isinstance(inside[0].value, ast.Constant)
+    return (then, otherwise[0]) if constant and otherwise and then != otherwise[0] else None
+
+
+@suspicion_of(About.CANCEL, ast.FunctionDef)
+def answers_thrown_away(function: ast.FunctionDef, tree: ast.AST) -> Words:
+    """Find `self.drive_to(point)` as a statement, where drive_to returns whether the goal was cancelled."""
+    answer = _answers(function)
+    if answer is None:
+        return
+    for node in walk(tree):
+        call = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(call, ast.Call) and last_name(call.func) == function.name:
+            yield (
+                call,
+                f"{unparse(call.func)}() returns {answer[0]} when the goal is to be cancelled, and this line "
+                "throws that away, so execute goes on as if the waypoint were reached: ask what it returns, and "
+                "end the patrol there",
+            )
 
 
 def _judges(tree: ast.AST) -> Iterator[ast.FunctionDef]:
@@ -204,3 +241,78 @@ def counters_that_go_on(tree: ast.AST) -> Words:
                     f"{name} is {once[name]} for the first goal only, and goes on from there for the next one: set it "
                     f"to {once[name]} where a goal is executed",
                 )
+
+
+def _answering(tree: ast.AST) -> Iterator[ast.FunctionDef]:
+    """Yield the functions that answer to goals."""
+    for function in functions(tree):
+        if any(unparse(each).endswith(("Response.REJECT", "Response.ACCEPT")) for each in _attributes(function)):
+            yield function
+
+
+def _attributes(tree: ast.AST) -> tuple[ast.Attribute, ...]:
+    return nodes_of(tree, ast.Attribute)
+
+
+@suspicion_of(About.ACCEPTS_ALL, ast.Call)
+def never_refuses(call: ast.Call, tree: ast.AST) -> Words:
+    """Find a goal callback that knows no answer but ACCEPT."""
+    name = last_name(call.func)
+    given = next((each.value for each in call.keywords if each.arg == "goal_callback"), None)
+    if name != "ActionServer" or given is None:
+        return
+    for function in (each for each in _answering(tree) if each.name == last_name(given)):
+        answers = {each.attr for each in _attributes(function)}
+        if "ACCEPT" in answers and "REJECT" not in answers:
+            yield function, f"{function.name} knows no answer but GoalResponse.ACCEPT"
+
+
+@suspicion_of(About.ACCEPTS_EMPTY)
+def lists_are_never_none(tree: ast.AST) -> Words:
+    """Find a goal without waypoints that is looked for by None."""
+    for function in _answering(tree):
+        for node in nodes_of(function, ast.Compare):
+            other = node.comparators[0]
+            if last_name(node.left) == "waypoints" and is_none(other):
+                yield (
+                    node,
+                    f"waypoints of a goal is a list, never None, so `{unparse(node)}` is always the same: a goal "
+                    f"without waypoints has an empty list, `len({unparse(node.left)}) == 0`",
+                )
+
+
+@suspicion_of(About.ACCEPTS_BACKWARDS)
+def signs_taken_away(tree: ast.AST) -> Words:
+    """Find abs(speed) in an answer to a goal."""
+    for function in _answering(tree):
+        for call, name in calls(function):
+            if name in ("abs", "fabs") and call.args and last_name(call.args[0]) == "speed":
+                yield call, f"{unparse(call)} has no sign any more, so a negative speed counts as a positive one"
+
+
+@suspicion_of(About.OTHER_LIMIT)
+def limits_that_are_no_parameter(tree: ast.AST) -> Words:
+    """Find a speed of a goal that is compared with a constant, and a parameter for its limit of another name."""
+    declared = [
+        (call.lineno, str(call.args[0].value))
+        for call, name in calls(tree)
+        if name == "declare_parameter" and call.args and isinstance(call.args[0], ast.Constant)
+    ]
+    if declared and any(_answering(tree)) and LIMIT not in (name for _, name in declared):
+        line, name = declared[0]
+        yield line, f"the node has a parameter `{name}`, and the task calls the limit `{LIMIT}`"
+    known = named_numbers(tree)
+    for function in _answering(tree):
+        own = {unparse(target): value for target, value in assigned(tree)}
+        for node in nodes_of(function, ast.Compare):
+            sides = [node.left, *node.comparators]
+            if not any(last_name(each) == "speed" for each in sides):
+                continue
+            for side in sides:
+                value = number(own.get(unparse(side), side), known)
+                if value is not None and value > 0:
+                    yield (
+                        node,
+                        f"`{unparse(node)[:70]}` takes the constant {value:g} for the limit: it is the parameter, "
+                        f"self.get_parameter('{LIMIT}').value",
+                    )

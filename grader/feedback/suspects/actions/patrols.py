@@ -1,12 +1,13 @@
-"""Suspects in an action server that drives: when it asks for a cancellation, what it counts, where it thinks it is."""
+"""Suspects in an action server that drives: when it asks for a cancellation, what it says, where it thinks it is."""
 
 from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator
 from typing import TypeGuard
 
-from gz_course.grader.feedback.facts.syntax import Words, assigned, called, nodes_of, unparse, walk
+from gz_course.grader.feedback.facts.syntax import Words, assigned, called, calls, functions, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects import suspicion_of
 from gz_course.grader.feedback.suspects.about import About
 
@@ -18,6 +19,10 @@ STEPS = frozenset({"publish", "publish_feedback", "sleep"})  # what every round 
 WAITS = frozenset({"sleep", "spin_once", "ok", "time", "monotonic", "now", "get_clock", "wait_for_server"})
 LOGS = frozenset({"get_logger", "debug", "info", "warn", "warning", "error", "print"})
 Loop = ast.While | ast.For
+AnyLoop = ast.While | ast.For | ast.AsyncFor
+SENDS = "publish_feedback"
+CLOCK = re.compile(r"nanosec|now|time|monotonic|Duration")  # a condition on the time is a rate, and may be right
+DRIVES = frozenset({"publish"})  # what a round of a loop that drives does; one that only sleeps waits
 
 
 def _asks(node: ast.AST) -> list[int]:
@@ -181,3 +186,102 @@ def summed_places(node: ast.AugAssign) -> Words:
             f"{unparse(node.target)} is a sum of velocities, which are in the frame of the robot and turn "
             "with it; the place in the frame odom is pose.pose.position of the message"
         )
+
+
+def _turns(block: list[ast.stmt]) -> bool:
+    return any(
+        unparse(target).endswith("angular.z") and unparse(value) not in ("0", "0.0")
+        for part in block
+        for target, value in assigned(part)
+    )
+
+
+def _phases(tree: ast.AST) -> Iterator[tuple[str, object]]:
+    """Yield the name of a phase, and its value in which alone the robot turns."""
+    for node in nodes_of(tree, ast.If):
+        name = ""
+        value: object = None
+        match node.test:
+            case ast.Compare(left=left, ops=[ast.Eq()], comparators=[ast.Constant() as constant]):
+                name, value = unparse(left), constant.value
+            case ast.UnaryOp(ast.Not(), ast.Name() | ast.Attribute() as left):
+                name, value = unparse(left), False
+            case ast.Name() | ast.Attribute() as left if not _turns(node.body) and _turns(node.orelse):
+                yield unparse(left), False
+        if name and _turns(node.body) and not _turns(node.orelse):
+            yield name, value
+
+
+@suspicion_of(About.PHASE)
+def phases_that_stay_over(tree: ast.AST) -> Words:
+    """Find a phase of turning that begins once, before the loop, and that the loop only leaves."""
+    for name, value in _phases(tree):
+        begins: list[tuple[ast.Assign, bool]] = []
+        ends: list[tuple[ast.Assign, bool]] = []
+        for function in functions(tree):
+            straight = {id(statement) for statement in function.body}
+            for statement in nodes_of(function, ast.Assign):
+                for target, given in assigned(statement):
+                    if unparse(target) != name:
+                        continue
+                    same = isinstance(given, ast.Constant) and given.value == value
+                    (begins if same else ends).append((statement, id(statement) in straight))
+        if begins and len(ends) == 1 and all(straight for _, straight in begins):
+            (end, _), before = ends[0], begins[-1][0]
+            if isinstance(end.value, ast.Constant):
+                yield (
+                    end,
+                    f"{unparse(end)} ends the turning for good: nothing sets it back to "
+                    f"{unparse(before.value)} for the next waypoint",
+                )
+                return
+
+
+def _reaching(tree: ast.AST, names: frozenset[str]) -> set[str]:
+    """Return names, and those of the functions that call one of them, themselves or by another function."""
+    found, own = set(names), list(functions(tree))
+    for _ in own:
+        more = {each.name for each in own if called(each) & found} - found
+        if not more:
+            break
+        found |= more
+    return found
+
+
+def _drivers(tree: ast.AST, node: ast.AST) -> Iterator[AnyLoop]:
+    """Yield the innermost loops that drive, in a node and in the functions that it calls."""
+    places = [node, *(each for each in functions(tree) if each.name in called(node))]
+    steps = _reaching(tree, DRIVES)
+    for place in places:
+        for loop in (each for each in walk(place) if isinstance(each, AnyLoop)):
+            inner = [each for each in walk(loop) if isinstance(each, AnyLoop) and each is not loop]
+            if called(loop) & steps and not any(called(each) & steps for each in inner):
+                yield loop
+
+
+@suspicion_of(About.RARE_FEEDBACK)
+def outside_of_the_loop(tree: ast.AST) -> Words:
+    """Find feedback beside the loop that drives, where no loop that drives sends any."""
+    if SENDS not in called(tree):
+        return
+    sending = _reaching(tree, frozenset({SENDS}))
+    for function in functions(tree):
+        drivers = list(_drivers(tree, function))
+        if not drivers or any(called(each) & sending for each in drivers):
+            continue
+        for call, name in calls(function):
+            if name in sending:
+                yield call, f"{name}() stands outside of the loop of line {drivers[0].lineno}, which drives the robot"
+
+
+@suspicion_of(About.RARE_FEEDBACK)
+def under_a_condition(tree: ast.AST) -> Words:
+    """Find the only call that sends feedback under a condition."""
+    sent = [call for call, name in calls(tree) if name == SENDS]
+    if len(sent) != 1:
+        return
+    around = [
+        node for node in nodes_of(tree, ast.If) if any(each is sent[0] for part in node.body for each in walk(part))
+    ]
+    if around and not CLOCK.search(unparse(around[-1].test)):  # the innermost one is walked to last
+        yield sent[0], f"{SENDS}() is called only if `{unparse(around[-1].test)[:80]}`"

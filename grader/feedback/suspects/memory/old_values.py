@@ -1,18 +1,84 @@
-"""Suspects in what is read once and then taken for the present: a place copied before a loop, a first message kept."""
+"""Suspects in what is read once and taken for the present: a copy, a first message, the oldest, every tenth."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 
+from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import Words, assigned, called, calls, functions, nodes_of, unparse, walk
 from gz_course.grader.feedback.suspects import suspicion_of
 from gz_course.grader.feedback.suspects.about import About
 
+FEWEST = 2
 # Parts of names that keep a first value on purpose.
 FIRST = ("start", "first", "begin", "origin", "home", "init", "zero", "ref", "from", "old", "last", "prev")
 MOST = 3  # copies that are named
 WAITS = frozenset({"publish", "publish_feedback", "sleep", "spin_once"})  # of a loop during which callbacks run
+ADDS = frozenset({"append", "appendleft"})
+
+
+@suspicion_of(About.ALIAS, ast.FunctionDef)
+def aliases(function: ast.FunctionDef) -> Words:
+    """Find `grid = self.map` followed by `grid[...] = ...` in a function that publishes no map."""
+    for node in nodes_of(function, ast.Assign):
+        if len(node.targets) != 1:
+            continue
+        target, value = node.targets[0], node.value
+        if isinstance(target, ast.Name) and isinstance(value, ast.Attribute) and _own(value):
+            for changed in _changes(function, target.id, node.lineno):
+                yield (
+                    changed,
+                    f"{unparse(changed)[:70]} changes {unparse(value)} itself, because {target.id} = "
+                    f"{unparse(value)} in line {node.lineno} makes no copy: {unparse(value)}.copy()",
+                )
+
+
+def _own(value: ast.Attribute) -> bool:
+    return isinstance(value.value, ast.Name) and value.value.id == "self"
+
+
+def _changes(function: ast.FunctionDef, name: str, line: int) -> Iterator[ast.stmt]:
+    """Yield the statements after a line that set parts of an array, or change it in place."""
+    for node in walk(function):
+        target = node.targets[0] if isinstance(node, ast.Assign) else getattr(node, "target", None)
+        if not isinstance(node, ast.Assign | ast.AugAssign) or node.lineno <= line or target is None:
+            continue
+        part = isinstance(target, ast.Subscript) and unparse(target.value) == name
+        if part or (isinstance(node, ast.AugAssign) and unparse(target) == name and bool(called(node.value))):
+            yield node
+
+
+@suspicion_of(About.EVERY, ast.FunctionDef)
+def every_nth_call(function: ast.FunctionDef, tree: ast.Module) -> Words:
+    """Find `if self.scans % 10 == 0:`, and `if self.scans >= 10:` that sets the counter to 0, of a counter of calls."""
+    numbers = named_numbers(tree)
+    counters = {
+        unparse(node.target): node.lineno
+        for node in nodes_of(function, ast.AugAssign)
+        if isinstance(node.op, ast.Add) and unparse(node.value) == "1"
+    }
+    zeroed = {unparse(node.targets[0]) for node in nodes_of(function, ast.Assign) if unparse(node.value) == "0"}
+    for node in nodes_of(function, ast.If):
+        match node.test:
+            case (
+                ast.BinOp(op=ast.Mod(), left=counter, right=limit)
+                | ast.Compare(left=ast.BinOp(op=ast.Mod(), left=counter, right=limit))
+            ):
+                counted = unparse(counter) in counters
+            case ast.Compare(left=counter, ops=[ast.GtE() | ast.Eq() | ast.Lt()], comparators=[limit]):
+                counted = unparse(counter) in zeroed and counters.get(unparse(counter), 1e9) < node.lineno
+            case _:
+                continue
+        times = number(limit, numbers)
+        if counted and times is not None and times >= FEWEST and _publishes(function, tree):
+            yield node, f"{unparse(node.test)[:60]} lets only one in {times:g} calls of {function.name} publish"
+
+
+def _publishes(function: ast.FunctionDef, tree: ast.Module) -> bool:
+    """Return whether a function publishes, itself or through a function that it calls."""
+    speak = {each.name for each in functions(tree) if any(name == "publish" for _, name in calls(each))}
+    return any(name == "publish" or name in speak for _, name in calls(function))
 
 
 def _attribute(node: ast.AST) -> str:
@@ -178,3 +244,34 @@ def _sets(node: ast.Assign, name: str) -> bool:
         for target in node.targets
         for each in walk(target)
     )
+
+
+@suspicion_of(About.POSE)
+def oldest_taken(tree: ast.AST) -> Words:
+    """Find `self.poses[0]` as the pose of now, where each message is appended to `self.poses`."""
+    listening = [each for each in functions(tree) if ".pose.pose" in unparse(each) or "_odom" in each.name]
+    kept: dict[str, str] = {}
+    for function in listening:
+        for call, name in calls(function):
+            if name in ADDS and isinstance(call.func, ast.Attribute) and isinstance(call.func.value, ast.Attribute):
+                kept[unparse(call.func.value)] = name
+    for function in functions(tree):
+        for target, value in assigned(function):
+            if isinstance(value, ast.Call) and unparse(value) in {f"min({each})" for each in kept}:
+                yield value, f"{unparse(value)} is the oldest pose that is kept: [-1] is the newest"
+            part = value.value if isinstance(value, ast.Attribute) else value
+            whole = part.value if isinstance(part, ast.Subscript) else part
+            name, adds = unparse(whole), kept.get(unparse(whole), "")
+            if not isinstance(part, ast.Subscript) or not adds or _is_on_purpose(target):
+                continue
+            old, new = ("0", "-1") if adds == "append" else ("-1", "0")
+            if unparse(part.slice) == old and f"{name}[{new}]" not in unparse(function):
+                yield (
+                    part,
+                    f"{name}[{old}] is the oldest pose that is kept, not the present one, because {adds}() adds at the "
+                    f"other end: {name}[{new}] is the newest",
+                )
+
+
+def _is_on_purpose(target: ast.expr) -> bool:
+    return any(part in unparse(target).lower() for part in FIRST)

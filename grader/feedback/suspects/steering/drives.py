@@ -14,9 +14,10 @@ from gz_course.grader.feedback.suspects.steering.endless_drives import (
     asked_for_none,
     in_init,
     is_zero,
+    of_a_plain_drive,
     publish_calls,
+    set_speeds,
 )
-from gz_course.grader.feedback.suspects.steering.plain_drives import of_a_plain_drive, set_speeds
 
 STEPS = 5  # names followed at most  # names followed at most
 PLACES = ("pose.position.x", "pose.position.y", "pose.orientation.", "position.x", "position.y", "twist.linear.")

@@ -1,9 +1,10 @@
-"""Suspects in a drive that never ends: what is compared does not change, or what is found has no effect (`endless`)."""
+"""Suspects in a drive for a time that never ends (`endless`): what is compared does not change, or changes nothing."""
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import wraps
 
 from gz_course.grader.feedback.facts.constants import named_numbers, number
 from gz_course.grader.feedback.facts.syntax import (
@@ -12,6 +13,7 @@ from gz_course.grader.feedback.facts.syntax import (
     called,
     calls,
     functions,
+    kept,
     last_name,
     nodes_of,
     set_to,
@@ -19,11 +21,39 @@ from gz_course.grader.feedback.facts.syntax import (
     walk,
 )
 from gz_course.grader.feedback.slips.clocks.time_units import unit_of
+from gz_course.grader.feedback.suspects import Suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About
-from gz_course.grader.feedback.suspects.steering.plain_drives import of_a_plain_drive, set_speeds
 
+OTHER_TASKS = frozenset({
+    "ActionServer", "ActionClient", "create_service", "create_client", "lookup_transform", "declare_parameters",
+})  # fmt: skip
 LONG = 8.0  # [s] more is no drive of a run
 TIMES = frozenset({"now", "get_clock", "stamp", "time", "monotonic", "perf_counter", "sleep", "nanoseconds", "clock"})
+
+
+def of_a_plain_drive(about: About) -> Callable[[Callable[[ast.Module], Words]], Suspicion]:
+    """Register a suspect that is looked for in such files only."""
+
+    def register(rule: Callable[[ast.Module], Words]) -> Suspicion:
+        @wraps(rule)
+        def find(tree: ast.Module) -> Words:
+            if _is_plain_drive(tree):
+                yield from rule(tree)
+
+        return suspicion_of(about)(find)
+
+    return register
+
+
+@kept
+def _is_plain_drive(tree: ast.Module) -> bool:
+    heard = {unparse(call.args[0]) for call, name in calls(tree) if name == "create_subscription" and call.args}
+    return any(set_speeds(tree)) and heard <= {"Odometry", "Clock"} and not called(tree) & OTHER_TASKS
+
+
+def set_speeds(node: ast.AST) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Yield the assignments of `linear.x`: the whole target, and its value."""
+    return ((target, value) for target, value in assigned(node) if unparse(target).endswith(".linear.x"))
 
 
 def in_init(tree: ast.AST) -> set[int]:

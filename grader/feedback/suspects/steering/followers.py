@@ -1,4 +1,4 @@
-"""Suspects in a node that keeps a distance: differences and conditions with the wrong side, sums of positions."""
+"""Suspects in a node that keeps a distance: the wrong side, sums of positions, stops for what is near anywhere."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from gz_course.grader.feedback.suspects.about import About
 KEPT = re.compile(r"gap|desired|wanted|1\.2\b|keep|spacing|target_dist", re.IGNORECASE)
 MEASURED = re.compile(r"dist|hypot|range|length|separation", re.IGNORECASE)
 LESS = re.compile(r"dist|error|gap|hypot|excess|behind|err\b", re.IGNORECASE)
+NEAREST = re.compile(r"\b(?:min|nanmin|amin)\((?:\w+\.)*ranges\)|\.ranges\)?\.min\(\)|\bmin\(\w+(?:\.\w+)*\.ranges\)")
 
 
 def _speeds(tree: ast.AST) -> list[tuple[ast.expr, ast.expr]]:
@@ -108,4 +109,25 @@ def added_positions(node: ast.AugAssign) -> Words:
             yield (
                 f"{name} grows by the whole position with each message: an odometry says where the robot is, not "
                 "how far it has come since the message before"
+            )
+
+
+@suspicion_of(About.STANDSTILL)
+def stops_for_all_sides(tree: ast.AST) -> Words:
+    """Find `if min(scan.ranges) < 0.5: command.linear.x = 0.0`, where the test is true for what is behind, too."""
+    nearest = {unparse(one) for one, value in assigned(tree) if NEAREST.search(unparse(value))}
+    for node in nodes_of(tree, ast.If):
+        test = unparse(node.test)
+        parts = {unparse(each) for each in walk(node.test)}
+        if " < " not in test or not (NEAREST.search(test) or parts & nearest):
+            continue
+        body = ast.Module(body=node.body, type_ignores=[])
+        given = {unparse(one): unparse(value) for one, value in assigned(body)}
+        stops = any(one.endswith("linear.x") and value in ("0", "0.0") for one, value in given.items())
+        if (stops or "Twist()" in unparse(body)) and not any(one.endswith("angular.z") for one in given):
+            more = "" if called(body) - {"Twist", "publish"} else ", and as long as it stands nothing changes"
+            yield (
+                node,
+                f"`if {test[:60]}` stops the robot for whatever is near on any side, also behind it{more}: look at the "
+                "rays ahead only, and turn",
             )

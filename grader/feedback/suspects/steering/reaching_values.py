@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.syntax import functions, last_name, nodes_of, unparse, walk
-from gz_course.grader.feedback.slips.language.own_calls import calls_of_own, parameters
+from gz_course.grader.feedback.slips.language.names import calls_of_own, parameters
 
 Path = tuple[int, ...]
 At = tuple[ast.expr, ast.FunctionDef]  # an expression, and the function it stands in

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.grader.feedback.errors.bridge_errors import bridge_meaning
+from gz_course.grader.feedback.errors.launch_errors import bridge_meaning
 from gz_course.grader.kinds.bridge import fault, read
 
 ENTRY = """\

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.grader.feedback.errors import libraries, python_errors, values
+from gz_course.grader.feedback.errors import libraries, python_errors
 from gz_course.grader.feedback.errors.python_errors import meaning
 
 # First lines of errors, as CPython 3.11, NumPy 2, rclpy 7.1, tf2, cv_bridge and message_filters print them.
@@ -131,7 +131,7 @@ ERRORS = (
     "ValueError: timer period must be non-negative",
     "ZeroDivisionError: division by zero",
 )
-TABLES = {"python_errors": python_errors.MEANINGS, "libraries": libraries.MEANINGS, "values": values.MEANINGS}
+TABLES = {"python_errors": python_errors.MEANINGS, "libraries": libraries.MEANINGS, "values": python_errors.VALUES}
 
 
 @pytest.mark.parametrize("name", TABLES)

@@ -2,8 +2,7 @@
 
 import pytest
 
-from gz_course.grader.feedback.facts.counters import counters
-from gz_course.grader.feedback.facts.early_publishing import early_publishing
+from gz_course.grader.feedback.facts.publishing import counters, early_publishing
 
 COUNTS = """\
 class Greeter:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.grader.feedback.facts.delays import delays
+from gz_course.grader.feedback.facts.publishing import delays
 
 TIMER = {"line": 1, "kind": "timer", "seconds": 0.5, "rounds": 1}
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.grader.feedback.facts.repetitions import repetitions
+from gz_course.grader.feedback.facts.publishing import repetitions
 
 RIGHT = """\
 class Greeter(Node):

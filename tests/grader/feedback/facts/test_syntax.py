@@ -4,9 +4,8 @@ import ast
 
 import pytest
 
+from gz_course.grader.feedback.facts.clocks import time_reckoning, wall_clock
 from gz_course.grader.feedback.facts.syntax import parsed, walk
-from gz_course.grader.feedback.facts.time_reckoning import time_reckoning
-from gz_course.grader.feedback.facts.wall_clock import wall_clock
 from gz_course.grader.feedback.facts.whole_numbers import whole_numbers
 from gz_course.grader.feedback.slips import slips
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz_course.grader.feedback.facts.wall_clock import wall_clock
+from gz_course.grader.feedback.facts.clocks import wall_clock
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 from gz_course.grader.feedback.predictions.of_robots import driving, scanning, standing, topics
-from gz_course.grader.feedback.predictions.of_robots.description import at_work_on, description_meaning
-from gz_course.grader.feedback.predictions.of_robots.overlaps import overlap
-from gz_course.grader.feedback.predictions.of_robots.placing import misplaced
+from gz_course.grader.feedback.predictions.of_robots.creating import at_work_on, description_meaning, misplaced, overlap
 from gz_course.grader.kinds.launch.robot_facts import MOST_PARTS, robot_facts
 from gz_course.grader.score.graphs import Bridged
 from gz_course.grader.score.robots import robot_of

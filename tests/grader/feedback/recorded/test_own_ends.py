@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from gz_course.grader.feedback.recorded.own_ends import ended_by_itself
+from gz_course.grader.feedback.recorded.places import ended_by_itself
 
 PLACE = {"file": "node.py", "line": 7, "said": "`sys.exit()` in drive() ends the program"}
 

@@ -1,6 +1,6 @@
 """The suspect that a check names."""
 
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 
 FOUND = [{"line": 3, "about": "angle", "said": "a"}, {"line": 7, "about": "heading", "said": "b"}]
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gz_course.grader.feedback.facts.time_reckoning import time_reckoning
+from gz_course.grader.feedback.facts.clocks import time_reckoning
 from gz_course.grader.feedback.slips import slips
 
 RIGHT = """\

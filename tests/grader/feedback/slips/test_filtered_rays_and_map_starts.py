@@ -5,7 +5,7 @@ import ast
 import pytest
 
 from gz_course.grader.feedback.slips import ROOM, slips
-from gz_course.grader.feedback.slips.geometry import filtered_rays, map_starts, sorted_rays
+from gz_course.grader.feedback.slips.geometry import map_starts, numbered_rays
 
 STEP = "a = i * scan.angle_increment"
 ARRAY = "r = np.array(scan.ranges)"
@@ -30,7 +30,7 @@ def found(room, *lines):
     ],
 )  # fmt: skip
 def test_numbers_of_what_is_left_are_no_numbers_of_rays(lines):
-    ((_, said),) = found(filtered_rays, *lines)
+    ((_, said),) = found(numbered_rays, *lines)
     assert "numbers only the rays that line" in said
 
 
@@ -45,14 +45,14 @@ def test_numbers_of_what_is_left_are_no_numbers_of_rays(lines):
     ],
 )
 def test_angles_of_all_rays_are_not_named(lines):
-    assert found(filtered_rays, *lines) == []
+    assert found(numbered_rays, *lines) == []
 
 
 def test_a_place_among_masked_points_is_no_number_of_a_ray():
     chosen = ("side = y > 0", "x, y = x[side], y[side]", "r = np.hypot(x, y)", "n = np.argmin(r)")
-    ((_, said),) = found(sorted_rays, *chosen, "a = scan.angle_min + n * scan.angle_increment")
+    ((_, said),) = found(numbered_rays, *chosen, "a = scan.angle_min + n * scan.angle_increment")
     assert "n is a place among those that side has left" in said
-    assert found(sorted_rays, *chosen, "a = np.arctan2(y[n], x[n])") == []
+    assert found(numbered_rays, *chosen, "a = np.arctan2(y[n], x[n])") == []
 
 
 SUBTRACTS = """
@@ -113,7 +113,7 @@ def on_scan(scan):
     for r in scan.ranges:
         {body}
 """
-    assert len(list(filtered_rays.left_out_before_the_next_angle(ast.parse(text)))) == number
+    assert len(list(numbered_rays.left_out_before_the_next_angle(ast.parse(text)))) == number
 
 
 @pytest.mark.parametrize(

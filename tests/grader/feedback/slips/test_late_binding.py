@@ -6,7 +6,7 @@ import pytest
 
 from gz_course.grader.feedback.launch_files import launch_places
 from gz_course.grader.feedback.slips import slips
-from gz_course.grader.feedback.slips.language.late_binding import late_bound
+from gz_course.grader.feedback.slips.language.shared_objects import late_bound
 
 LOOP = "for number in range(3):\n    "
 

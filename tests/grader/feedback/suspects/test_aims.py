@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.feedback.suspects.planning import aims, forgetting, margins, thresholds
+from gz_course.grader.feedback.suspects.planning import aims, kept_ways, maps
 from gz_course.grader.feedback.suspects.sensing import rays
 from gz_course.grader.feedback.suspects.steering import headings
 
@@ -66,7 +66,7 @@ def widened(grid):
             for dx in range(-R, R + 1):
                 out.add((dy, dx))
 """
-    assert len(said(margins.widened_unknown, text)) == number
+    assert len(said(kept_ways.widened_unknown, text)) == number
 
 
 @pytest.mark.parametrize(("given", "number"), [("100, 80", 1), ("", 0)])
@@ -82,7 +82,7 @@ class Mapper:
         self.grid = GridMap({given})
         self.grid.insert(scan)
 """
-    assert len(said(forgetting.forgets, text)) == number
+    assert len(said(maps.forgets, text)) == number
 
 
 def test_rays_of_a_list_with_another_name():
@@ -102,4 +102,4 @@ def test_an_angle_of_a_scan_with_a_name_is_no_number_of_degrees():
     [("self.passes > 60", 1), ("60 <= self.n_hit[c]", 1), ("self.passes > 2", 0), ("len(self.hits) > 60", 0)],
 )
 def test_a_cell_that_must_be_seen_many_times(test, number):
-    assert len(said(thresholds.many_observations, f"kind = OccupancyGrid\nshown = {test}\n")) == number
+    assert len(said(maps.many_observations, f"kind = OccupancyGrid\nshown = {test}\n")) == number

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from gz_course.grader.feedback.suspects.memory import every_nth
+from gz_course.grader.feedback.suspects.memory import old_values
 from gz_course.grader.feedback.suspects.sensing import rays
 
 COUNTS = """
@@ -27,7 +27,7 @@ class A:
     ],
 )
 def test_a_counter_of_calls_that_lets_few_publish(test, first, number):
-    found = list(every_nth.every_nth_call(ast.parse(COUNTS.format(test, first))))
+    found = list(old_values.every_nth_call(ast.parse(COUNTS.format(test, first))))
     assert [said.endswith("only one in 10 calls of on_scan publish") for _, _, said in found] == [True] * number
 
 

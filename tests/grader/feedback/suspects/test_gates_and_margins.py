@@ -5,15 +5,8 @@ import ast
 import pytest
 
 from gz_course.grader.feedback.suspects import ROOM
-from gz_course.grader.feedback.suspects.planning import (
-    closed_gates,
-    forgetting,
-    made_cells,
-    margins,
-    own_places,
-    way_ends,
-)
-from gz_course.grader.feedback.suspects.steering import made_poses, standstills
+from gz_course.grader.feedback.suspects.planning import aims, cells, flags, kept_ways, maps
+from gz_course.grader.feedback.suspects.steering import followers, heading_formulas
 
 
 def found(room, text):
@@ -33,9 +26,9 @@ class Mapper:  # publishes an OccupancyGrid
             if not self.path:
                 self.finished = True
 """
-    ((line, said),) = found(closed_gates, text)
+    ((line, said),) = found(flags, text)
     assert line == 10 and "as soon as `not self.path` holds" in said
-    assert found(closed_gates, text + "    def again(self):\n        self.finished = False\n") == []
+    assert found(flags, text + "    def again(self):\n        self.finished = False\n") == []
 
 
 @pytest.mark.parametrize(
@@ -57,9 +50,9 @@ class Mapper:
             self.look()
         {sets}
 """
-    ((line, said),) = found(closed_gates, text)
+    ((line, said),) = found(flags, text)
     assert line == 6 and "planned only once" in said and sets in said
-    assert found(closed_gates, text + "    def on_goal(self):\n" + right) == []
+    assert found(flags, text + "    def on_goal(self):\n" + right) == []
 
 
 @pytest.mark.parametrize(
@@ -80,7 +73,7 @@ def widened(walls):
         for dx in range(-reach, reach + 1):
             walls[dy, dx] = 1
 """
-    said = [each for _, each in found(margins, text)]
+    said = [each for _, each in found(kept_ways, text)]
     assert words in said[0] if words else said == []
 
 
@@ -93,7 +86,7 @@ def grown(cells, by):
 near = grown(grid == 100, AWAY)
 frontier = grown(grid == UNKNOWN, 1)
 """
-    ((line, said),) = found(margins, text)
+    ((line, said),) = found(kept_ways, text)
     assert line == 6 and "AWAY is 1" in said
 
 
@@ -112,7 +105,7 @@ frontier = grown(grid == UNKNOWN, 1)
     ],
 )
 def test_places_of_cells(line, words):
-    said = [each for _, each in found(own_places, f"def index(self, x, y):\n    pass\n{line}\n")]
+    said = [each for _, each in found(cells, f"def index(self, x, y):\n    pass\n{line}\n")]
     assert words in said[0] if words else said == []
 
 
@@ -129,17 +122,18 @@ def test_places_of_cells(line, words):
 )
 def test_poses_that_are_made(line, words):
     said = [
-        each for _, each in found(made_poses, f"def on_odom(self, m: Odometry):\n    p = m.pose.pose\n    {line}\n")
+        each
+        for _, each in found(heading_formulas, f"def on_odom(self, m: Odometry):\n    p = m.pose.pose\n    {line}\n")
     ]
     assert words in said[0] if words else said == []
 
 
 def test_a_stop_for_what_is_near_on_any_side():
     text = "if min(self.scan.ranges) < 0.5:\n    cmd.linear.x = 0.0\n"
-    ((line, said),) = found(standstills, text)
+    ((line, said),) = found(followers, text)
     assert line == 1 and "on any side" in said
-    assert found(standstills, text + "    cmd.angular.z = 1.0\n") == []
-    assert found(standstills, text.replace("self.scan.ranges", "ahead")) == []
+    assert found(followers, text + "    cmd.angular.z = 1.0\n") == []
+    assert found(followers, text.replace("self.scan.ranges", "ahead")) == []
 
 
 @pytest.mark.parametrize(
@@ -164,23 +158,23 @@ class Mapper:
     def on_scan(self, scan):
         {line}
 """
-    said = [each for _, each in found(forgetting, text)]
+    said = [each for _, each in found(maps, text)]
     assert words in said[0] if words else said == []
 
 
 def test_the_other_end_of_a_way():
     text = "while near(self.way[0]):\n    self.way.pop()\n"
-    ((line, said),) = found(way_ends, text)
+    ((line, said),) = found(aims, text)
     assert line == 2 and "self.way.pop(0)" in said
-    assert found(way_ends, text.replace("pop()", "pop(0)")) == []
-    assert found(way_ends, text.replace("[0]", "[-1]")) == []
+    assert found(aims, text.replace("pop()", "pop(0)")) == []
+    assert found(aims, text.replace("[0]", "[-1]")) == []
 
 
 def test_parts_that_are_unpacked_in_another_order():
     text = "self.pose = (p.x, p.y, atan2(a, b))\nx, yaw, y = self.pose\n"
-    ((line, said),) = found(own_places, text)
+    ((line, said),) = found(cells, text)
     assert line == 2 and "x, y, ..." in said
-    assert found(own_places, text.replace("x, yaw, y", "x, y, yaw")) == []
+    assert found(cells, text.replace("x, yaw, y", "x, y, yaw")) == []
 
 
 @pytest.mark.parametrize(
@@ -194,7 +188,7 @@ def test_parts_that_are_unpacked_in_another_order():
     ],
 )
 def test_a_row_is_as_long_as_the_map_is_wide(code, number):
-    assert len(list(own_places.other_stride(ast.parse(f"place = {code}")))) == number
+    assert len(list(cells.other_stride(ast.parse(f"place = {code}")))) == number
 
 
 def test_a_margin_of_no_cell():
@@ -207,7 +201,7 @@ class Planner:
             for dx in range(-self.REACH, self.REACH + 1):
                 walls[dy, dx] = 1
 """
-    ((_, said),) = found(margins, text)
+    ((_, said),) = found(kept_ways, text)
     assert "self.REACH is 0, so ways keep 0 cells" in said
 
 
@@ -229,7 +223,7 @@ def place(self):
     ],
 )
 def test_cells_that_are_made_of_the_other_coordinate(line, words):
-    said = [each for _, each in found(made_cells, CELLS.format(line))]
+    said = [each for _, each in found(cells, CELLS.format(line))]
     assert words in said[0] if words else said == []
 
 
@@ -253,18 +247,18 @@ class Mapper:
     [("return cell", "", 1), ("if far(cell): return cell", "", 0), ("continue", "", 0)],
 )
 def test_a_loop_over_a_way_that_returns_in_its_first_pass(line, more, number):
-    assert len(list(way_ends.left_in_the_first_pass(ast.parse(WAY.format(line) + more)))) == number
+    assert len(list(aims.left_in_the_first_pass(ast.parse(WAY.format(line) + more)))) == number
 
 
 @pytest.mark.parametrize(("more", "number"), [("", 1), ("    def go(self):\n        self.way.pop(0)\n", 0)])
 def test_a_way_that_nothing_takes_away_again(more, number):
-    assert len(list(closed_gates.kept_way(ast.parse(WAY.format("pass") + more)))) == number
+    assert len(list(flags.kept_way(ast.parse(WAY.format("pass") + more)))) == number
 
 
 def test_rates_of_a_twist_with_a_name_are_added_up():
     text = "def on_odom(m):  # Odometry\n    t = m.twist.twist\n    pose.yaw += t.angular.z * 0.02\nkind = Odometry\n"
-    assert len(list(made_poses.summed_rates(ast.parse(text)))) == 1
-    assert not list(made_poses.summed_rates(ast.parse(text.replace("twist.twist", "pose.pose"))))
+    assert len(list(heading_formulas.summed_rates(ast.parse(text)))) == 1
+    assert not list(heading_formulas.summed_rates(ast.parse(text.replace("twist.twist", "pose.pose"))))
 
 
 @pytest.mark.parametrize(("number", "words"), [("1", "keep 1 cell"), ("3", "")])
@@ -278,7 +272,7 @@ for dy in range(-REACH, REACH + 1):
 """
     said = [
         each
-        for _, each in found(margins, f"def widened(walls):\n    {text.strip().replace(chr(10), chr(10) + '    ')}")
+        for _, each in found(kept_ways, f"def widened(walls):\n    {text.strip().replace(chr(10), chr(10) + '    ')}")
     ]
     assert words in said[0] if words else said == []
 
@@ -286,7 +280,7 @@ for dy in range(-REACH, REACH + 1):
 @pytest.mark.parametrize(("sign", "number"), [("+", 1), ("-", 0)])
 def test_the_corner_is_subtracted(sign, number):
     text = f"info.origin.position.x = self.grid.left\ncolumn = int((x {sign} self.left) / self.size)\n"
-    assert len(list(own_places.corner_added(ast.parse(text)))) == number
+    assert len(list(cells.corner_added(ast.parse(text)))) == number
 
 
 @pytest.mark.parametrize(
@@ -294,4 +288,4 @@ def test_the_corner_is_subtracted(sign, number):
 )
 def test_the_direction_of_a_position_is_no_heading(value, number):
     text = f"p = message.pose.pose.position\nyaw = math.{value}\n"
-    assert len(list(made_poses.heading_of_a_position(ast.parse(text)))) == number
+    assert len(list(heading_formulas.heading_of_a_position(ast.parse(text)))) == number

@@ -5,7 +5,7 @@ import ast
 import pytest
 
 from gz_course.grader.feedback.slips.geometry import searches
-from gz_course.grader.feedback.suspects.planning import heaps
+from gz_course.grader.feedback.suspects.planning import searches as goals_of_searches
 
 SEARCH = """
 def search(start):
@@ -31,7 +31,7 @@ def search(start):
     ],
 )
 def test_what_stands_first_in_a_heap(pushed, words):
-    said = [each for _, _, each in heaps.other_first(ast.parse(SEARCH.format("<", pushed)))]
+    said = [each for _, _, each in goals_of_searches.other_first(ast.parse(SEARCH.format("<", pushed)))]
     assert words in said[0] if words else said == []
 
 
