@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from gz_course.grader.feedback.recorded.source_places import stands_before
+from gz_course.grader.feedback.recorded.places import stands_before
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
 from gz_course.sim.did_you_mean import nearest_name

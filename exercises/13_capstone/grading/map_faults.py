@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gz_course.grader.feedback.recorded.suspects import suspect
+from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.floor import Grid, grown
 

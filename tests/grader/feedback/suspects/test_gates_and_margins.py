@@ -5,7 +5,8 @@ import ast
 import pytest
 
 from gz_course.grader.feedback.suspects import ROOM
-from gz_course.grader.feedback.suspects.planning import aims, cells, flags, kept_ways, maps
+from gz_course.grader.feedback.suspects.memory import flags
+from gz_course.grader.feedback.suspects.planning import aims, cells, kept_ways, maps
 from gz_course.grader.feedback.suspects.steering import followers, heading_formulas
 
 
