@@ -73,6 +73,11 @@ def _create(node: Node, arguments: list[str]) -> int:
         request = factory(values)
         if given[0] == "file":
             request.sdf_filename = find(values["file"], world)
+            if ".xacro" in Path(values["file"]).suffixes:
+                logger.warning(
+                    f"'{values['file']}' is expanded here, and by no `create` of a full installation: there, give it "
+                    "the output of xacro, with -file or -topic"
+                )
         else:
             request.sdf = text
         logger.info(f"Requesting creation of an entity in world '{world.name}'")

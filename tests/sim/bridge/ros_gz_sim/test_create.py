@@ -75,6 +75,12 @@ def test_sources(create, world, words, name):
     assert name in world.scene()
 
 
+def test_a_xacro_file_is_expanded_with_a_warning(create, world):
+    code, said = create("-file", "robot.urdf.xacro", "-name", "warned")
+    assert (code, said.count("by no `create` of a full installation")) == (0, 1)
+    assert "full installation" not in create("-file", "robot.urdf", "-name", "unwarned")[1]
+
+
 def test_a_text_that_was_published_before(create, world, ros_node):
     from rclpy.qos import DurabilityPolicy, QoSProfile
     from std_msgs.msg import String

@@ -32,10 +32,18 @@ def test_nothing_to_report(stamps):
 
 
 def test_nothing_new_is_reported_twice():
-    rate = rate_of(0, 100)
+    rate = rate_of(100, 200)
     assert rate.report()
     assert rate.report() == ""
 
 
 def test_a_clock_that_jumps_back_begins_anew():
-    assert rate_of(900, 1000, 0, 500).report().startswith("average rate: 2.000\n")
+    assert rate_of(900, 1000, 100, 600).report().startswith("average rate: 2.000\n")
+
+
+def test_the_time_before_the_first_clock_message_does_not_count():
+    assert rate_of(0, 0, 7000, 7200, 7400).report().startswith("average rate: 5.000\n")
+
+
+def test_a_clock_at_zero_begins_anew():
+    assert rate_of(900, 1000, 0, 500, 900).report().startswith("average rate: 2.500\n")

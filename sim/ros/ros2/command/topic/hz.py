@@ -48,8 +48,12 @@ class Rate:
         self._news = False
 
     def tick(self) -> None:
-        """Record a message; restart if the clock stands still or jumps back."""
+        """Record a message; ignore it before the first `/clock` (zero), and restart if the clock jumps back."""
         now = self._clock()
+        if now == 0:
+            self._intervals.clear()
+            self._last = None
+            return
         if self._last is not None and now == self._last:
             return
         if self._last is not None and now > self._last:
