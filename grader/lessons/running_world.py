@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 OF_EVERY_NODE = {"/rosout", "/parameter_events"}
 POSES = "/dynamic_pose/info"
 GRAPH = 1.0  # [s] in which the nodes of a graph find each other on an idle machine
+TRANSFORM = 5.0  # [s] until transforms have arrived that are published already
 READY = 30.0  # [s] until a command says what it is waited for
 
 
@@ -121,6 +122,22 @@ class RunningWorld(Tried):
             spin_until(lambda: node.count_publishers(topic) > 0, GRAPH)
             return sorted(each.node_name for each in node.get_publishers_info_by_topic(topic))
 
+    def transform(self, target: str, source: str) -> Any:
+        from rclpy.time import Time
+        from tf2_ros import Buffer, TransformException, TransformListener
+
+        with self._node() as (node, spin_until):
+            buffer = Buffer()
+            listener = TransformListener(buffer, node)
+            limit = TRANSFORM * (EXTRA if crowded() else 1)
+            spin_until(lambda: bool(buffer.can_transform(target, source, Time())), limit)
+            try:
+                return buffer.lookup_transform(target, source, Time())
+            except TransformException:
+                raise NotYet(f"tf2 finds no way from `{source}` to `{target}`.") from None
+            finally:
+                del listener
+
     def gz_topics(self) -> list[str]:
         from gz_course.sim.gz.transport.node import Node
 
@@ -140,6 +157,10 @@ class RunningWorld(Tried):
         request = f'name: "{model}", position: {{x: {x}, y: {y}, z: {z}}}, {turn}'
         types = "--reqtype gz.msgs.Pose --reptype gz.msgs.Boolean --timeout 5000"
         self.command(f"gz service -s /world/{self._world()}/set_pose {types} --req '{request}'")
+
+    def remove(self, model: str) -> None:
+        types = "--reqtype gz.msgs.Entity --reptype gz.msgs.Boolean --timeout 5000"
+        self.command(f"gz service -s /world/{self._world()}/remove {types} --req 'name: \"{model}\", type: MODEL'")
 
     def _world(self) -> str:
         for topic in self.gz_topics():

@@ -99,6 +99,10 @@ class Tried(abc.ABC):
         """Return the names of the nodes that publish on a ROS topic."""
 
     @abc.abstractmethod
+    def transform(self, target: str, source: str) -> Any:
+        """Return the latest `TransformStamped` by which tf2 takes points from the frame `source` to `target`."""
+
+    @abc.abstractmethod
     def gz_topics(self) -> list[str]:
         """Return the topics of Gazebo."""
 
@@ -109,6 +113,10 @@ class Tried(abc.ABC):
     @abc.abstractmethod
     def place(self, model: str, x: float, y: float, yaw: float = 0.0) -> None:
         """Put a model somewhere [m, rad] on the ground, for example away from the wall that it drove into."""
+
+    @abc.abstractmethod
+    def remove(self, model: str) -> None:
+        """Take a model out of the world, for example so that its name may be given again."""
 
     @abc.abstractmethod
     def recording(self) -> Any:
