@@ -11,6 +11,7 @@ import importlib.util
 import itertools
 import re
 import struct
+import subprocess
 from pathlib import Path
 
 import nbformat
@@ -195,12 +196,31 @@ def commands(processes):
     return [" ".join(process.cmdline()) for process in processes]
 
 
+def files_in(folder):
+    return {str(each.relative_to(folder)) for each in folder.rglob("*") if each.is_file()}
+
+
+def not_ignored(files):
+    """The files of the clone that git does not ignore; none if this is no clone."""
+    if not files or not (ROOT / ".git").exists():
+        return []
+    command = ["git", "check-ignore", "--no-index", "--stdin"]
+    found = subprocess.run(command, cwd=ROOT, input="\n".join(files), capture_output=True, text=True, check=False)
+    return sorted(set(files) - set(found.stdout.splitlines()))
+
+
+def test_files_that_cells_of_a_chapter_make_are_ignored_by_git():
+    made = ["chapters/06_spawn/level.sdf", "chapters/06_spawn/wagon.urdf.xacro", "chapters/06_spawn/wagon.yaml"]
+    assert not_ignored(made) == []
+
+
 def execute(path, tmp_path, descendants, times):
     """Run a notebook in a copy of the course, each code cell so many `times`; return what the cells put out.
 
     The cells themselves must have ended what they started, not the end of the kernel.
     """
     folder = copy_of_course(path, tmp_path)
+    before = files_in(folder)
     notebook = read(folder / path.name)
     notebook.cells = [
         nbformat.from_dict(cell | {"id": f"{cell.id}-{number}"})
@@ -219,6 +239,8 @@ def execute(path, tmp_path, descendants, times):
 
     asyncio.run(run())
     assert commands(descendants()) == []
+    made = [f"chapters/{path.stem}/{each}" for each in files_in(folder) - before]
+    assert not_ignored(made) == [], "git would see these files beside the notebook"
     for cell in client.nb.cells:
         if cell.cell_type == "code":
             said = printed(cell)
