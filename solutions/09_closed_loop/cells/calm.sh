@@ -1,0 +1,1 @@
+ros2 param set /keeper gain 1.0
