@@ -124,16 +124,16 @@ class RunningWorld(Tried):
 
     def transform(self, target: str, source: str) -> Any:
         from rclpy.time import Time
-        from tf2_ros import Buffer, TransformException, TransformListener
 
+        tf2_ros = importlib.import_module("tf2_ros")
         with self._node() as (node, spin_until):
-            buffer = Buffer()
-            listener = TransformListener(buffer, node)
+            buffer = tf2_ros.Buffer()
+            listener = tf2_ros.TransformListener(buffer, node)
             limit = TRANSFORM * (EXTRA if crowded() else 1)
             spin_until(lambda: bool(buffer.can_transform(target, source, Time())), limit)
             try:
                 return buffer.lookup_transform(target, source, Time())
-            except TransformException:
+            except tf2_ros.TransformException:
                 raise NotYet(f"tf2 finds no way from `{source}` to `{target}`.") from None
             finally:
                 del listener

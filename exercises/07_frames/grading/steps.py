@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from collections import deque
 from typing import Any
@@ -116,7 +117,6 @@ def point_in_odom(tried: Tried) -> str:
 def _buffer() -> Any:
     """Return a buffer with the transforms of one second, in which a robot drives and turns, and two scanners on it."""
     from geometry_msgs.msg import TransformStamped
-    from tf2_ros import Buffer
 
     def transform(parent: str, child: str, time: float, x: float, y: float, z: float, yaw: float) -> TransformStamped:
         made = TransformStamped(child_frame_id=child)
@@ -127,7 +127,7 @@ def _buffer() -> Any:
         turn.z, turn.w = math.sin(yaw / 2), math.cos(yaw / 2)
         return made
 
-    buffer = Buffer()
+    buffer = importlib.import_module("tf2_ros").Buffer()
     for tick in range(21):
         passed = 0.05 * tick
         pose = 1.0 + 0.4 * passed, -0.5 * passed, 0.0, 1.8 * passed
