@@ -125,7 +125,8 @@ class RunningWorld(Tried):
     def transform(self, target: str, source: str) -> Any:
         from rclpy.time import Time
 
-        tf2_ros = importlib.import_module("tf2_ros")
+        from gz_course.sim.ros import tf2_ros
+
         with self._node() as (node, spin_until):
             buffer = tf2_ros.Buffer()
             listener = tf2_ros.TransformListener(buffer, node)

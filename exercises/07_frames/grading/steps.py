@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections import deque
 from typing import Any
@@ -56,7 +55,7 @@ def ready(tried: Tried) -> str:
     times = (9.0, 10.2, 10.6, 12.0)
     scans = [_scan_at(tried, time) for time in times]
     waiting = deque(scans)
-    said = function(waiting, _buffer())
+    said = function(waiting, _buffer(tried))
     expect(isinstance(said, list | tuple | deque), f"It returns {said!r}; a list of scans is wanted.")
     returned, left = (
         [time for time, scan in zip(times, scans, strict=True) if scan in each] for each in (said, waiting)
@@ -71,7 +70,7 @@ def ready(tried: Tried) -> str:
 def scan_to_odom(tried: Tried) -> str:
     """scan_to_odom(buffer, scan) is the transform that takes points of a scan to odom, at the time of the scan."""
     function = tried.function("scan_to_odom")
-    buffer = _buffer()
+    buffer = _buffer(tried)
     for time, frame in ((10.2, "robot/scanner"), (10.725, SECOND)):
         scan = _scan_at(tried, time, frame)
         said = function(buffer, scan)
@@ -95,7 +94,7 @@ def point_in_odom(tried: Tried) -> str:
     """point_in_odom(scan, transform, x, y) is a point of the scan in odom, as PointStamped with the scan's time."""
     function = tried.function("point_in_odom")
     scan = _scan_at(tried, 10.725)
-    transform = _buffer().lookup_transform("odom", "robot/scanner", tried.time(scan.header.stamp))
+    transform = _buffer(tried).lookup_transform("odom", "robot/scanner", tried.time(scan.header.stamp))
     said = function(scan, transform, 1.5, -0.5)
     expect(type(said).__name__ == "PointStamped", f"It returns a {type(said).__name__}; a PointStamped is wanted.")
     got, frame, stamp = said.point, said.header.frame_id, said.header.stamp
@@ -114,12 +113,12 @@ def point_in_odom(tried: Tried) -> str:
     return f"{seen}, with the stamp of the scan."
 
 
-def _buffer() -> Any:
+def _buffer(tried: Tried) -> Any:
     """Return a buffer with the transforms of one second, in which a robot drives and turns, and two scanners on it."""
-    from geometry_msgs.msg import TransformStamped
+    kind = type(tried.transform("odom", "robot"))
 
-    def transform(parent: str, child: str, time: float, x: float, y: float, z: float, yaw: float) -> TransformStamped:
-        made = TransformStamped(child_frame_id=child)
+    def transform(parent: str, child: str, time: float, x: float, y: float, z: float, yaw: float) -> Any:
+        made = kind(child_frame_id=child)
         made.header.frame_id = parent
         made.header.stamp.sec, made.header.stamp.nanosec = int(time), round(time % 1 * 1e9)
         put, turn = made.transform.translation, made.transform.rotation
@@ -127,7 +126,7 @@ def _buffer() -> Any:
         turn.z, turn.w = math.sin(yaw / 2), math.cos(yaw / 2)
         return made
 
-    buffer = importlib.import_module("tf2_ros").Buffer()
+    buffer = tried.value("Buffer")()
     for tick in range(21):
         passed = 0.05 * tick
         pose = 1.0 + 0.4 * passed, -0.5 * passed, 0.0, 1.8 * passed
