@@ -75,7 +75,8 @@ class Classroom:
         """Ask the questions of a chapter again, or answer one of them."""
         lesson = load_lesson(self.folder.parents[1] / "exercises" / chapter)
         if not lesson.review:
-            raise UsageError(f"there are no questions about {chapter!r}")
+            print(f"There are no questions about {chapter}.")
+            return None
         if choice is not None:
             if not 1 <= number <= len(lesson.review):
                 raise UsageError(f"question {number} is none of 1 to {len(lesson.review)}")

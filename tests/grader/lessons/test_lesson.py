@@ -112,9 +112,9 @@ def test_a_question_of_review_is_answered(classroom, capsys):
     assert capsys.readouterr().out == "No, it is: angular.z. The upward axis is z.\n"
 
 
-def test_a_chapter_without_questions_says_so(classroom):
-    with pytest.raises(UsageError, match="no questions about '91_none'"):
-        classroom.review("91_none")
+def test_a_chapter_without_questions_says_so_and_the_notebook_goes_on(classroom, capsys):
+    assert classroom.review("91_none") is None
+    assert capsys.readouterr().out == "There are no questions about 91_none.\n"
 
 
 @pytest.mark.parametrize(
