@@ -29,6 +29,7 @@ PLACEHOLDER = re.compile(r"(?<![.\w])\.\.\.(?![.\w])")
 UNTOUCHED = "Nothing is written here yet: put your own lines in place of the dots, and run the cell again."
 SHELL_LINE = re.compile(r"^\s*(\w+ = )?[!%]", re.MULTILINE)
 AGAIN = 1.0  # [s] between two interrupts of a cell that catches the first
+GRACE = 0.5  # [s] from SIGINT to SIGTERM and from there to SIGKILL, for what a command has started
 EXTRA = 9  # times that a crowded machine gets the limit anew
 LONGEST_LINE = 60  # [characters] of a line that is quoted
 
@@ -96,7 +97,7 @@ def run_commands(script: str, folder: Path, deadline: float) -> str:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, ending)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.communicate(timeout=3.0)
+                process.communicate(timeout=GRACE)
                 if not _group_lives(process.pid):
                     break
     return shortened(output.decode(errors="replace"))
