@@ -16,7 +16,8 @@ from gz_course.grader.exercise.grading import GRADING, README
 from gz_course.grader.exercise.trial import TRIALS, load_trials
 from gz_course.grader.submission.intake import is_junk
 
-SOLVED = {"accepted", "rejected", "expect.toml"}  # files of the private half that solve the exercise or tell how
+# Files of the private half that solve the exercise or the cells of its chapter, or tell how.
+SOLVED = {"accepted", "rejected", "cells", "expect.toml"}
 TRACES = (".rrd", ".part", ".pyc", ".orig", ".bak", "~")
 
 
