@@ -4,6 +4,7 @@ import io
 import os
 import subprocess
 import sys
+from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
@@ -43,7 +44,37 @@ COMMANDS = [
     "course show {file}",
     "course score {file}",
     "course grade 03 --submission {file}",
+    "bridge_types --get-ros-to-gz {name}",
+    "bridge_types {name}",
+    "ros_gz_bridge_lint {file}",
+    "ros_gz_bridge_lint {name}@{name}@{name}",
+    "ros_gz_bridge_lint --{name}",
+    "parameter_bridge {name}@{name}@{name}",
+    "ros2 run rqt_graph rqt_graph --svg {file}/x.svg",
+    "ros2 run rqt_graph rqt_graph {name}",
+    "ros2 run rviz2 rviz2 --save {file}",
+    "ros2 run rviz2 rviz2 --{name}",
+    "ros2 run ros_gz_bridge lint {file}",
+    "ros2 run ros_gz_bridge bridge_types {name}",
+    "ros2 run ros_gz_bridge bridge_node --ros-args -p config_file:={file}",
+    "ros2 run ros_gz_bridge parameter_bridge {name}",
+    "ros2 run ros_gz_image image_bridge {name} --ros-args -p qos:={name}",
+    "ros2 run ros_gz_sim create -file {file}",
+    "ros2 run ros_gz_sim create -{name}",
+    "ros2 run ros_gz_sim delete_entity --{name}",
+    "ros2 run ros_gz_sim gzserver -{name}",
+    "ros2 run ros_gz_sim remove -{name}",
+    "ros2 run ros_gz_sim set_entity_pose --name {name}",
+    "ros2 run ros_gz_sim spawn_entity --{name}",
+    "ros2 run robot_state_publisher robot_state_publisher {name}",
+    "ros2 run teleop_twist_keyboard teleop_twist_keyboard {name}",
+    "ros2 run tf2_ros static_transform_publisher --frame-id {name}",
+    "ros2 run tf2_ros tf2_echo {name}",
+    "ros2 run tf2_ros tf2_monitor {name}",
+    "ros2 run tf2_ros view_frames {name}",
+    "ros2 run tf2_tools view_frames {name}",
 ]
+LIBRARY = Path(__file__).parents[2] / "sim/ros/prefix/lib"
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +109,14 @@ def test_hostile_names(command, inputs, tmp_path):
     assert said
     if command == "ros2 bag play {bag}":
         assert "has no name that ROS allows" in said
+
+
+def test_every_program_is_asked():
+    """No program that a terminal starts is left out above."""
+    asked = {tuple(command.split()[2:4]) for command in COMMANDS if command.startswith("ros2 run ")}
+    assert {(path.parent.name, path.name) for path in LIBRARY.glob("*/*")} <= asked
+    of_the_package = {each.name for each in entry_points(group="console_scripts") if "gz_course." in each.value}
+    assert of_the_package - {"launch_test"} <= {command.split()[0] for command in COMMANDS}
 
 
 def test_what_a_terminal_obeys_is_replaced():

@@ -19,10 +19,13 @@ from gz_course.sim.bridge.ros_gz_bridge.type_pairs import (
     pairs,
 )
 from gz_course.sim.did_you_mean import nearest_name
+from gz_course.sim.terminal_text import guard
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the requested types; return 0, 1 for a type without a partner, or 2 for wrong arguments."""
+    if arguments is None:
+        guard()
     parser = argparse.ArgumentParser(
         prog="bridge_types", description="Says which message types the bridge converts into which."
     )

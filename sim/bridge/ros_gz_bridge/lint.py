@@ -11,6 +11,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gz_course.sim.terminal_text import guard
+
 if TYPE_CHECKING:
     from gz_course.sim.bridge.ros_gz_bridge.config import Config
 
@@ -28,6 +30,8 @@ Exit code: 0 without errors (there may be warnings), 2 with errors.
 
 def main(argv: list[str] | None = None) -> int:
     """Check what the command line names; return the exit code."""
+    if argv is None:
+        guard()
     arguments = sys.argv[1:] if argv is None else argv
     if not arguments or {"-h", "--help"} & set(arguments):
         print(HELP, end="")

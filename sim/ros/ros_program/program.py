@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from gz_course.sim.foreign_variables import set_aside
 from gz_course.sim.ros.ros_program.errors import Failure, UsageError, first_line
 from gz_course.sim.ros.ros_program.spinner import STOP_SIGNALS, block_stop_signals
+from gz_course.sim.terminal_text import guard
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -38,6 +39,8 @@ def run(
     wherever it is, with exit code 130. A program that sends `images` gets a larger segment of shared memory. Why a
     lasting program could not start also stands in ROS's folder of logs (`last_words`).
     """
+    if argv is None:
+        guard()
     argv = sys.argv if argv is None else [program, *argv]
     if {"-h", "--help", "-help"} & set(argv[1:]):
         print(help_text, end="")

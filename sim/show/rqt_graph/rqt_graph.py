@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gz_course.sim.terminal_text import guard
+
 if TYPE_CHECKING:
     from gz_course.sim.gz.transport import Node as GzNode
     from gz_course.sim.ros.ros2.graph import Graph
@@ -34,6 +36,8 @@ def parser(program: str = NAME) -> argparse.ArgumentParser:
 
 def main(argv: list[str] | None = None, program: str = NAME) -> int:
     """Draw until Ctrl-C, or once; return the exit code."""
+    if argv is None:
+        guard()
     given = parser(program).parse_args(_without_ros_arguments(sys.argv[1:] if argv is None else argv))
     if given.svg is not None and not given.svg.absolute().parent.is_dir():
         print(f"{program}: {given.svg} cannot be written: there is no such folder", file=sys.stderr)

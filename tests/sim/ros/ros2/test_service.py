@@ -92,6 +92,23 @@ def test_what_is_wrong_is_one_sentence(answers, asked, sentence):
     assert len(errors.splitlines()) == 1
 
 
+def test_a_client_that_ends_before_its_answer_ends_no_server(robot, ros2):
+    """rclpy warns then; as an error, the warning would end the thread of the server."""
+    import rclpy
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+    from std_srvs.srv import SetBool
+
+    deaf = rclpy.create_node("deaf", context=robot.context)
+    # What answers is volatile, so DDS does not connect it with this client.
+    client = deaf.create_client(
+        SetBool, "/robot/enable", qos_profile=QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    )
+    client.call_async(SetBool.Request())
+    answer = ros2("service", "call", "/robot/enable", "std_srvs/srv/SetBool", "data: yes")
+    deaf.destroy_node()
+    assert (answer[0], answer[2]) == (0, "")
+
+
 def test_call_repeats_until_interrupted(start, robot):
     command = start(
         "service", "call", "-r", "50", "/robot/enable", "std_srvs/srv/SetBool", "--stdin", stdin_text="data: true"
