@@ -33,11 +33,15 @@ REFUSED = {
     442: "mount_setattr", 248: "add_key", 249: "request_key", 250: "keyctl", 321: "bpf", 298: "perf_event_open",
     323: "userfaultfd", 304: "open_by_handle_at", 175: "init_module", 313: "finit_module", 246: "kexec_load",
     169: "reboot", 167: "swapon", 153: "vhangup", 172: "iopl", 173: "ioperm", 300: "fanotify_init",
+    254: "inotify_add_watch",  # tells the names in any folder of the same user, which Landlock does not prevent
+    440: "process_madvise", 448: "process_mrelease", 256: "migrate_pages", 279: "move_pages",
 }  # fmt: skip
-# Calls refused with ENOSYS: memory outside all limits (System V shared memory, memfd) and io_uring, which bypasses this
-# filter.
+# Calls refused with ENOSYS: memory outside all limits (memfd), what outlives a run and belongs to a user, not to a run
+# (shared memory, semaphores and queues of System V, queues of POSIX), and io_uring, which bypasses this filter.
 MISSING = {
-    29: "shmget", 64: "semget", 68: "msgget", 319: "memfd_create", 447: "memfd_secret",
+    29: "shmget", 30: "shmat", 31: "shmctl", 64: "semget", 65: "semop", 66: "semctl", 220: "semtimedop",
+    68: "msgget", 69: "msgsnd", 70: "msgrcv", 71: "msgctl", 240: "mq_open", 241: "mq_unlink",
+    319: "memfd_create", 447: "memfd_secret",
     425: "io_uring_setup", 426: "io_uring_enter", 427: "io_uring_register", CLONE3: "clone3",
 }  # fmt: skip
 # Calls that change the priority or the scheduling of a process: of the calling thread only. For each number the
@@ -51,6 +55,8 @@ OF_ITSELF_ONLY = {
     142: {0: 0}, 144: {0: 0}, 314: {0: 0},  # sched_setparam, sched_setscheduler, sched_setattr
 }  # fmt: skip
 LIMITS_OF_ITSELF_ONLY = {302: {0: 0}}  # prlimit64; refused with EPERM for others
+FCNTL, LEASE = 72, 1024  # a lease on a file lets whoever opens it next wait; refused with EPERM
+SECOND_ARGUMENT = FIRST_ARGUMENT + 8
 
 
 def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
@@ -72,6 +78,8 @@ def program() -> bytes:
             for position, value in allowed.items():
                 steps += [_step(LOAD, FIRST_ARGUMENT + 8 * position), _step(JUMP_EQUAL, value, 1, 0), answer]
             steps += [yes]
+    steps += [_step(JUMP_EQUAL, FCNTL, 0, 4), _step(LOAD, SECOND_ARGUMENT)]
+    steps += [_step(JUMP_EQUAL, LEASE, 0, 1), no, yes]
     steps += [_step(JUMP_EQUAL, CLONE, 0, 4), _step(LOAD, FIRST_ARGUMENT)]
     steps += [_step(JUMP_ANY_BIT, NAMESPACES, 0, 1), no, yes]
     steps += [_step(JUMP_EQUAL, SOCKET, 1, 0), _step(JUMP_EQUAL, SOCKETPAIR, 0, len(FAMILIES) + 2)]

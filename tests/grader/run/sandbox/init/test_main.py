@@ -49,6 +49,14 @@ def test_the_filter_refuses_every_call_it_names_and_says_how():
     assert answers == dict.fromkeys(seccomp.REFUSED, 1) | dict.fromkeys(seccomp.MISSING, 38)
 
 
+def test_no_lease_on_a_file_but_every_other_fcntl():
+    answers = filtered(
+        """(lambda f: [error(lambda: libc.fcntl(f, 1024, 0)), error(lambda: libc.fcntl(f, 1, 0)),
+            error(lambda: libc.fcntl(f, 1025, 0))])(os.open(os.__file__, os.O_RDONLY))"""
+    )
+    assert answers == [1, 0, 0]
+
+
 def test_priority_scheduling_and_limits_are_changed_of_oneself_only():
     calls = {
         "setpriority": "libc.setpriority({kind}, {who}, 1)",
