@@ -5,27 +5,28 @@ It uses contexts of ROS of its own, so that a cell may initialise and shut down 
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import importlib
 import math
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gz_course.grader.lessons.cell import EXTRA, own_words, run_commands
+from gz_course.grader.lessons.cell import own_words, run_commands
+from gz_course.grader.lessons.observer import SEEN, SpinUntil, both_ways, named, observer, until_found
 from gz_course.grader.lessons.step import NotYet, Pose, Tried
-from gz_course.grader.process.load import crowded
 
 if TYPE_CHECKING:
     from gz_course.grader.tools.playground import Playground, Program
 
 OF_EVERY_NODE = {"/rosout", "/parameter_events"}
+OF_ROS2_RUN = "[ros2run]"
 POSES = "/dynamic_pose/info"
-GRAPH = 1.0  # [s] in which the nodes of a graph find each other on an idle machine
-TRANSFORM = 5.0  # [s] until transforms have arrived that are published already
+TRIES = 2  # a single message may be lost while two nodes find each other
+STARTED = 12.0  # [s] from the start of a command until its node is found
 READY = 30.0  # [s] until a command says what it is waited for
 
 
@@ -73,9 +74,9 @@ class RunningWorld(Tried):
             program.wait_for(ready, READY)
         except TimeoutError:
             state = "runs" if program.exit_code is None else "has ended"
-            said = program.output.strip().splitlines()
+            said = _last_line(program.output)
             program.stop()
-            last = f"; its last line is: {said[-1]}" if said else " and has printed nothing"
+            last = f"; its last line is: {said}" if said else " and has printed nothing"
             raise NotYet(f"`{command}` {state}{last}") from None
         return program
 
@@ -91,8 +92,41 @@ class RunningWorld(Tried):
         found = self._listen(topic, message_type, count, deadline)
         if len(found) < count:
             came = f"only {len(found)} of {count} messages came" if found else "no message came"
-            raise NotYet(f"On {topic} {came} within {deadline:g} s. Does what publishes there run?")
+            raise NotYet(f"On {topic} {came}. Does what publishes there run?")
         return found
+
+    def heard_from(
+        self, command: str, topic: str, message_type: str, count: int = 1, after: float = 2.0, deadline: float = 8.0
+    ) -> list[Any]:
+        for _ in range(TRIES):
+            found, code, said = self._answers(command, topic, message_type, (count, after, deadline))
+            last = f" Its last line is: {said}" if said else ""
+            if code:
+                raise NotYet(f"`{command}` ended with exit code {code}.{last}")
+            if found:
+                return found[:count]
+        raise NotYet(f"`{command}` was started, and no message came on {topic}.{last}")
+
+    def _answers(
+        self, command: str, topic: str, message_type: str, wait: tuple[int, float, float]
+    ) -> tuple[list[Any], int | None, str]:
+        """Return the messages that come once a command is started, its exit code, and what it said last."""
+        count, after, deadline = wait
+        found: list[Any] = []
+        with self.node() as (node, spin_until):
+            node.create_subscription(_message(message_type), topic, found.append, _sensor_qos())
+            program = self._room.start(command)
+
+            def came() -> bool:
+                return bool(found) or program.exit_code is not None
+
+            spin_until(lambda: came() or node.count_publishers(topic) > 0, STARTED)
+            spin_until(came, deadline)
+            if found:
+                spin_until(lambda: len(found) >= count, after)
+            code = program.exit_code
+            program.stop()
+        return found, code, _last_line(program.output)
 
     def time(self, stamp: Any) -> Any:
         from rclpy.clock import ClockType
@@ -104,34 +138,46 @@ class RunningWorld(Tried):
         return not self._listen(topic, message_type, 1, seconds)
 
     def _listen(self, topic: str, message_type: str, count: int, deadline: float) -> list[Any]:
-        from rclpy.qos import qos_profile_sensor_data
-
         found: list[Any] = []
-        with self._node() as (node, spin_until):
-            node.create_subscription(_message(message_type), topic, found.append, qos_profile_sensor_data)
-            spin_until(lambda: len(found) >= count, deadline)
+        with self.node() as (node, spin_until):
+            node.create_subscription(_message(message_type), topic, found.append, _sensor_qos())
+            until_found(node, spin_until, lambda: bool(found) or node.count_publishers(topic) > 0)
+            if found or node.count_publishers(topic):
+                spin_until(lambda: len(found) >= count, deadline)
         return found[:count]
 
-    def topics(self) -> dict[str, list[str]]:
-        with self._node() as (node, spin_until):
-            spin_until(lambda: False, GRAPH * (EXTRA if crowded() else 1))
-            return {name: types for name, types in node.get_topic_names_and_types() if name not in OF_EVERY_NODE}
+    def topics(self, *wanted: str) -> dict[str, list[str]]:
+        with self.node() as (node, spin_until):
+
+            def known() -> dict[str, list[str]]:
+                return {name: types for name, types in node.get_topic_names_and_types() if name not in OF_EVERY_NODE}
+
+            until_found(node, spin_until, lambda: bool(wanted) and known().keys() >= set(wanted))
+            return known()
 
     def publishers(self, topic: str) -> list[str]:
-        with self._node() as (node, spin_until):
-            spin_until(lambda: node.count_publishers(topic) > 0, GRAPH)
+        with self.node() as (node, spin_until):
+            until_found(node, spin_until, lambda: named(node.get_publishers_info_by_topic(topic)))
             return sorted(each.node_name for each in node.get_publishers_info_by_topic(topic))
+
+    def subscribers(self, topic: str) -> list[str]:
+        with self.node() as (node, spin_until):
+            until_found(node, spin_until, lambda: named(node.get_subscriptions_info_by_topic(topic)))
+            return sorted(each.node_name for each in node.get_subscriptions_info_by_topic(topic))
+
+    def both_ways(self, topic: str) -> list[str]:
+        with self.node() as (node, spin_until):
+            return sorted(both_ways(node, spin_until, topic))
 
     def transform(self, target: str, source: str) -> Any:
         from rclpy.time import Time
 
         from gz_course.sim.ros import tf2_ros
 
-        with self._node() as (node, spin_until):
+        with self.node() as (node, spin_until):
             buffer = tf2_ros.Buffer()
             listener = tf2_ros.TransformListener(buffer, node)
-            limit = TRANSFORM * (EXTRA if crowded() else 1)
-            spin_until(lambda: bool(buffer.can_transform(target, source, Time())), limit)
+            until_found(node, spin_until, lambda: bool(buffer.can_transform(target, source, Time())))
             try:
                 return buffer.lookup_transform(target, source, Time())
             except tf2_ros.TransformException:
@@ -139,14 +185,18 @@ class RunningWorld(Tried):
             finally:
                 del listener
 
-    def gz_topics(self) -> list[str]:
+    def gz_topics(self, wanted: str = "") -> list[str]:
+        return self._gz_topics(lambda topic: not wanted or topic == wanted)
+
+    def _gz_topics(self, wanted: Callable[[str], bool]) -> list[str]:
         from gz_course.sim.gz.transport.node import Node
 
         self._open()
         with Node() as node:
-            end = time.monotonic() + GRAPH
-            while not (found := node.topic_list()) and time.monotonic() < end:
-                pass  # each list asks the network, and waits for its answers
+            end = time.monotonic() + SEEN
+            found = node.topic_list()
+            while not any(map(wanted, found)) and time.monotonic() < end:
+                found = node.topic_list()  # asks the network, and waits for its answers
         return sorted(found)
 
     def poses(self, model: str, seconds: float = 0.0) -> list[Pose]:
@@ -164,8 +214,11 @@ class RunningWorld(Tried):
         self.command(f"gz service -s /world/{self._world()}/remove {types} --req 'name: \"{model}\", type: MODEL'")
 
     def _world(self) -> str:
-        for topic in self.gz_topics():
-            if topic.startswith("/world/") and topic.endswith(POSES):
+        def of_world(topic: str) -> bool:
+            return topic.startswith("/world/") and topic.endswith(POSES)
+
+        for topic in self._gz_topics(of_world):
+            if of_world(topic):
                 return topic.removeprefix("/world/").removesuffix(POSES)
         raise NotYet("No world runs; run the cell that starts `gz sim`.")
 
@@ -182,31 +235,22 @@ class RunningWorld(Tried):
         if self._room.closed:
             raise NotYet("The playground is closed; run the chapter's cells from the one that makes `room`.")
 
-    @contextlib.contextmanager
-    def _node(self) -> Iterator[tuple[Any, Callable[[Callable[[], bool], float], None]]]:
-        """Give a node of its own, and a function that spins it until something holds or some time [s] has passed."""
-        import rclpy
-        from rclpy.executors import SingleThreadedExecutor
-        from rclpy.signals import SignalHandlerOptions
-
+    def node(self) -> AbstractContextManager[tuple[Any, SpinUntil]]:
         self._open()
-        context = rclpy.Context()
-        rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
-        try:
-            node = rclpy.create_node("step", context=context, enable_rosout=False, start_parameter_services=False)
-            executor = SingleThreadedExecutor(context=context)
-            executor.add_node(node)
+        return observer()
 
-            def spin_until(holds: Callable[[], bool], deadline: float) -> None:
-                end = time.monotonic() + deadline
-                while not holds() and (left := end - time.monotonic()) > 0:
-                    executor.spin_once(timeout_sec=min(left, 0.1))
 
-            yield node, spin_until
-            executor.shutdown()
-            node.destroy_node()
-        finally:
-            rclpy.shutdown(context=context)
+def _last_line(output: str) -> str:
+    """Return what a program said last; not what `ros2 run` says of its end."""
+    said = [line for line in output.splitlines() if line.strip() and not line.startswith(OF_ROS2_RUN)]
+    return said[-1] if said else ""
+
+
+def _sensor_qos() -> Any:
+    """Return the quality of service that connects with every publisher."""
+    from rclpy.qos import qos_profile_sensor_data
+
+    return qos_profile_sensor_data
 
 
 def _message(name: str) -> Any:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -83,6 +84,16 @@ class Tried(abc.ABC):
         """Return the next messages on a ROS topic, of a type such as `sensor_msgs/msg/LaserScan`."""
 
     @abc.abstractmethod
+    def heard_from(
+        self, command: str, topic: str, message_type: str, count: int = 1, after: float = 2.0, deadline: float = 8.0
+    ) -> list[Any]:
+        """Start a command and return the messages that come on a topic from then on; then it is ended.
+
+        Returns when `count` have come, or `after` [s] from the first. NotYet if the command ends with an error, or if
+        none comes within `deadline` [s], twice.
+        """
+
+    @abc.abstractmethod
     def time(self, stamp: Any) -> Any:
         """Return a stamp of a message as a time of a node's clock, `rclpy.time.Time`."""
 
@@ -91,8 +102,11 @@ class Tried(abc.ABC):
         """Tell whether no message comes on a ROS topic for so long [s]."""
 
     @abc.abstractmethod
-    def topics(self) -> dict[str, list[str]]:
-        """Return the topics of ROS and their types, those that every node has left out."""
+    def topics(self, *wanted: str) -> dict[str, list[str]]:
+        """Return the topics of ROS and their types, as soon as those `wanted` are there.
+
+        Those that every node has are left out.
+        """
 
     @abc.abstractmethod
     def publishers(self, topic: str) -> list[str]:
@@ -103,8 +117,23 @@ class Tried(abc.ABC):
         """Return the latest `TransformStamped` by which tf2 takes points from the frame `source` to `target`."""
 
     @abc.abstractmethod
-    def gz_topics(self) -> list[str]:
-        """Return the topics of Gazebo."""
+    def subscribers(self, topic: str) -> list[str]:
+        """Return the names of the nodes that subscribe to a ROS topic."""
+
+    @abc.abstractmethod
+    def both_ways(self, topic: str) -> list[str]:
+        """Return the nodes that publish a ROS topic and also subscribe to it, as a bridge in both directions does."""
+
+    @abc.abstractmethod
+    def node(self) -> AbstractContextManager[tuple[Any, Callable[[Callable[[], bool], float], None]]]:
+        """Give an `rclpy` node for the time of a `with`, and a function that spins it.
+
+        The function takes what should hold, and the longest time [s].
+        """
+
+    @abc.abstractmethod
+    def gz_topics(self, wanted: str = "") -> list[str]:
+        """Return the topics of Gazebo, as soon as the one `wanted` is there."""
 
     @abc.abstractmethod
     def poses(self, model: str, seconds: float = 0.0) -> list[Pose]:
