@@ -85,8 +85,9 @@ def named(ends: list[Any]) -> bool:
 def both_ways(node: Any, spin_until: SpinUntil, topic: str) -> set[str]:
     """Return the nodes that publish a topic and also subscribe to it, as a bridge in both directions does."""
 
-    def ends() -> tuple[list[Any], list[Any]]:
-        return node.get_publishers_info_by_topic(topic), node.get_subscriptions_info_by_topic(topic)
+    def ends() -> tuple[list[Any], ...]:
+        some = node.get_publishers_info_by_topic(topic), node.get_subscriptions_info_by_topic(topic)
+        return tuple([each for each in those if each.node_name != NAME] for those in some)
 
     def both() -> set[str]:
         publishers, subscribers = ({each.node_name for each in some if named([each])} for some in ends())

@@ -165,8 +165,10 @@ class RunningWorld(Tried):
             until_found(node, spin_until, lambda: named(node.get_subscriptions_info_by_topic(topic)))
             return sorted(each.node_name for each in node.get_subscriptions_info_by_topic(topic))
 
-    def both_ways(self, topic: str) -> list[str]:
+    def both_ways(self, topic: str, message_type: str = "") -> list[str]:
         with self.node() as (node, spin_until):
+            if message_type:
+                node.create_subscription(_message(message_type), topic, lambda _: None, _sensor_qos())
             return sorted(both_ways(node, spin_until, topic))
 
     def transform(self, target: str, source: str) -> Any:

@@ -121,8 +121,11 @@ class Tried(abc.ABC):
         """Return the names of the nodes that subscribe to a ROS topic."""
 
     @abc.abstractmethod
-    def both_ways(self, topic: str) -> list[str]:
-        """Return the nodes that publish a ROS topic and also subscribe to it, as a bridge in both directions does."""
+    def both_ways(self, topic: str, message_type: str = "") -> list[str]:
+        """Return the nodes that publish a ROS topic and also subscribe to it, as a bridge in both directions does.
+
+        With a type the topic is listened to meanwhile: a lazy bridge has its ends only then.
+        """
 
     @abc.abstractmethod
     def node(self) -> AbstractContextManager[tuple[Any, Callable[[Callable[[], bool], float], None]]]:

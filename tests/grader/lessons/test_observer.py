@@ -23,6 +23,14 @@ node.create_timer(0.1, lambda: publisher.publish(String(data="yes")))
 rclpy.spin(node)
 """
 
+LAZY = """
+- ros_topic_name: /front/scan
+  gz_topic_name: /lidar/scan
+  ros_type_name: sensor_msgs/msg/LaserScan
+  gz_type_name: gz.msgs.LaserScan
+  lazy: true
+"""
+
 
 class Graph:
     """A graph in which `names` are found at their times [s]; waiting costs its own time."""
@@ -78,5 +86,13 @@ def test_a_node_that_publishes_is_found_and_heard(world):
 
 def test_a_node_that_publishes_what_it_hears_goes_both_ways(world):
     world.relay("both")
+    assert world.both_ways("/word", "std_msgs/msg/String") == ["relay"]
     assert world.both_ways("/word") == ["relay"]
     assert world.subscribers("/word") == ["relay"]
+
+
+def test_a_lazy_bridge_in_both_directions_is_found_while_somebody_listens(world, tmp_path):
+    (tmp_path / "lazy.yaml").write_text(LAZY)
+    world.start("gz sim lidar_room.sdf -r -s", "")
+    world.start(f"ros2 run ros_gz_bridge parameter_bridge --ros-args -p config_file:={tmp_path}/lazy.yaml", "ready")
+    assert world.both_ways("/front/scan", "sensor_msgs/msg/LaserScan") == ["ros_gz_bridge"]
