@@ -1,0 +1,116 @@
+"""The cells that the reader of chapter 0 writes."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from gz_course.grader.lessons.motion import Motion, motion_of
+from gz_course.grader.lessons.observer import until_known
+from gz_course.grader.lessons.step import COMMANDS, Tried, expect, step
+
+SECONDS = 2.0  # of simulated time in which a motion is looked at
+SETTLED = 10  # poses from the moment that the robot is placed
+POSITION = re.compile(r"\[(-?\d\S*) (-?\d\S*) (-?\d\S*)\]")
+FOUND = 8.0  # [s] in which the subscription of a node that is known is found
+TICKS = 45  # tenths of a second that its time lasts
+NEAR = 0.5  # [m] that the robot may have driven since its position was printed
+
+
+def motion(tried: Tried) -> Motion:
+    """Return how the robot moves in the middle of the room, away from the walls."""
+    tried.place("robot", 0.0, 0.0)
+    return motion_of(tried.poses("robot", SECONDS)[SETTLED:])
+
+
+def greetings(tried: Tried, command: str) -> list[Any]:
+    """Return what comes on /greeting; the node's time begins when it has been found, so that nothing is lost."""
+    from rosgraph_msgs.msg import Clock
+    from std_msgs.msg import String
+
+    heard: list[Any] = []
+    with tried.node() as (node, spin_until):
+        node.create_subscription(String, "/greeting", heard.append, 10)
+        clock = node.create_publisher(Clock, "/clock", 10)
+        tried.start(command, ready="")
+        until_known(node, spin_until, "/greeting")
+        spin_until(lambda: clock.get_subscription_count() > 0, FOUND)
+        expect(not heard, "A message came on /greeting at once, before the timer fired.")
+        for tick in range(1, TICKS):
+            now = Clock()
+            now.clock.sec, now.clock.nanosec = tick // 10, tick % 10 * 100_000_000
+            clock.publish(now)
+            spin_until(lambda: False, 0.05)
+        spin_until(lambda: bool(heard), FOUND)
+    tried.stop(command)
+    return heard
+
+
+@step("drive", objective=2)
+def drive(tried: Tried) -> str:
+    """The robot drives straight ahead at 0.3 m/s."""
+    moves = motion(tried)
+    seen = f"The robot {moves}"
+    expect(abs(moves.rate) < 0.03, f"{seen}; straight ahead means 0 rad/s.")
+    expect(abs(moves.speed - 0.3) < 0.03, f"{seen}; 0.3 m/s is wanted.")
+    return f"{seen}: you have moved a robot."
+
+
+@step("stop", objective=2, form=COMMANDS)
+def stop(tried: Tried) -> str:
+    """The robot stands still."""
+    moves = motion(tried)
+    still = abs(moves.speed) < 0.02 and abs(moves.rate) < 0.02
+    expect(still, f"The robot still {moves}; it obeys the last command it got.")
+    return "The robot stands still."
+
+
+@step("where", objective=1, form=COMMANDS)
+def where(tried: Tried) -> str:
+    """The position of the robot is printed."""
+    found = POSITION.search(tried.output)
+    if found is None:
+        expect(False, "The command printed no position, three numbers in brackets.")
+        return ""
+    x, y = float(found[1]), float(found[2])
+    robot = tried.poses("robot")[-1]
+    expect(
+        math.hypot(x - robot.x, y - robot.y) < NEAR,
+        f"The position printed is ({x:.2f}, {y:.2f}) m; the robot is at ({robot.x:.2f}, {robot.y:.2f}) m.",
+    )
+    return f"The robot is at ({x:.2f}, {y:.2f}) m, and the command says so."
+
+
+@step("greeting", objective=3)
+def greeting(tried: Tried) -> str:
+    """`greeting` is a std_msgs/msg/String that says good night."""
+    from std_msgs.msg import String
+
+    said = tried.value("greeting", String).data
+    expect(said == "good night", f"The message says {said!r}; 'good night' is wanted, letter by letter.")
+    return "It is a String that says 'good night'."
+
+
+@step("once", objective=3, form="once_node.py")
+def once(tried: Tried) -> str:
+    """The node publishes good night on /greeting exactly once, one second after its start."""
+    heard = greetings(tried, "python once_node.py --ros-args -p use_sim_time:=true")
+    expect(heard, "once_node.py was started, and no message came on /greeting.")
+    said = heard[0].data
+    expect(said == "good night", f"On /greeting came {said!r}; 'good night' is wanted.")
+    expect(len(heard) == 1, "The node greets again and again; once is wanted, so its timer should end.")
+    return "'good night' came on /greeting once, and nothing after it."
+
+
+@step("mean_speed", objective=4)
+def mean_speed(tried: Tried) -> str:
+    """`mean_speed` is the way of the robot by the time of the run [m/s]."""
+    recording = tried.recording()
+    way, time = float(recording.signal("truth/robot/distance").values[-1]), recording.ended_s
+    said = float(tried.value("mean_speed", (int, float)))
+    expect(
+        abs(said - way / time) < 0.01,
+        f"The robot drove {way:.2f} m in a run of {time:.2f} s; {said:.2f} m/s is not its mean speed.",
+    )
+    return f"{way:.2f} m in {time:.2f} s: on average {said:.2f} m/s."

@@ -1,0 +1,3 @@
+from std_msgs.msg import String
+
+greeting = String(data="good night")

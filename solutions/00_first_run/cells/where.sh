@@ -1,0 +1,1 @@
+gz model -m robot -p
