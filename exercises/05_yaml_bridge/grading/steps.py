@@ -8,6 +8,7 @@ from gz_course.grader.lessons.motion import motion_of
 from gz_course.grader.lessons.step import NotYet, Tried, expect, step
 
 BRIDGE = "ros2 run ros_gz_bridge"
+SCAN = "sensor_msgs/msg/LaserScan"
 ERROR = re.compile(r"^\[ERROR\] \[\S+\] \[ros_gz_bridge\]: (.*)$", re.MULTILINE)
 FAULT = re.compile(r"^\S+:\d+: (?:error|warning): .*$", re.MULTILINE)
 SECONDS = 1.5  # of simulated time in which a motion is looked at
@@ -60,11 +61,11 @@ def scan(tried: Tried) -> str:
     bridged(tried, "scan.yaml")
     expect(tried.publishers("/front/scan"), "The bridge has no topic /front/scan in ROS.")
     lazy = "No subscribers" in tried.command("gz topic -i -t /lidar/scan")
-    heard = tried.heard("/front/scan", "sensor_msgs/msg/LaserScan")[0]
+    heard = tried.heard("/front/scan", SCAN)[0]
     frame = heard.header.frame_id
     expect(frame == "laser", f"The scans on /front/scan are in the frame {frame}; laser is wanted.")
     expect(lazy, "The scans come, but the bridge takes them from Gazebo even while nobody in ROS listens.")
-    back = tried.both_ways("/front/scan")
+    back = tried.both_ways("/front/scan", SCAN)
     expect(not back, f"The scans come, but {', '.join(back)} listens to /front/scan in ROS, to pass it on to Gazebo.")
     tried.stop(BRIDGE)
     return "/front/scan has scans in the frame laser, and Gazebo is asked only while somebody listens."
