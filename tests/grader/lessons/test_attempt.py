@@ -158,3 +158,14 @@ def test_a_fault_of_the_check_is_not_the_readers(room):
 def test_a_cell_of_a_file_writes_it(room, tmp_path):
     tried(room, "- topic_name: /clock", form="bridge.yaml", folder=tmp_path)
     assert (tmp_path / "bridge.yaml").read_text() == "- topic_name: /clock\n"
+
+
+def test_what_a_program_said_is_there_after_it_has_ended(room):
+    def asks(tried: Tried) -> str:
+        """Return what the client said, and not what one before it said."""
+        room.start("echo the one before").wait_for("before")
+        room.start("echo response: 3")._process.wait()
+        return tried.stop("echo")
+
+    answer, _ = tried(room, "x = 1", asks)
+    assert answer.seen == "response: 3\n"
