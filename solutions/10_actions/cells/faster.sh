@@ -1,0 +1,1 @@
+ros2 param set /circler speed 0.3
