@@ -1,0 +1,1 @@
+gz topic -e -t /imu -n 1
