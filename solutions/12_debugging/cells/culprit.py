@@ -1,0 +1,1 @@
+culprit = "ros_gz_bridge"

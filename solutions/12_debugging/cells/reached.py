@@ -1,0 +1,2 @@
+reached = stations[3]
+print(reached)
