@@ -81,9 +81,11 @@ class RunningWorld(Tried):
         return program
 
     def stop(self, command: str) -> str:
+        programs = [program for program in self._room.programs if program.command.startswith(command)]
+        ended = {program for program in programs[:-1] if program.exit_code is not None}  # of attempts before
         output = ""
-        for program in self._room.running:
-            if program.command.startswith(command):
+        for program in programs:
+            if program not in ended:
                 program.stop()
                 output += program.output
         return output
