@@ -25,11 +25,14 @@ from gz_course.sim.error_text import named
 from gz_course.sim.foreign_variables import set_aside
 from gz_course.sim.terminal_text import printable
 
+INSTRUCTORS = "For instructors"
+
 
 class Commands(TyperGroup):
     """The sub-commands, a file of `commands/` each: `course grade-all` runs the function `command` of `grade_all.py`.
 
     A file is imported when its command is called; the list of commands reads their docstrings without importing them.
+    A module's docstring with the line `For instructors.` puts its command into the second half of the list.
     """
 
     def list_commands(self, _: Any) -> list[str]:
@@ -44,15 +47,23 @@ class Commands(TyperGroup):
 
     def format_commands(self, context: Any, formatter: Any) -> None:
         folder = Path(commands.__path__[0])
-        with formatter.section("Commands"):
-            formatter.write_dl(
-                [(name, _summary(folder / f"{name.replace('-', '_')}.py")) for name in self.list_commands(context)]
-            )
+        told: dict[str, list[tuple[str, str]]] = {"Commands": [], INSTRUCTORS: []}
+        for name in self.list_commands(context):
+            module = ast.parse((folder / f"{name.replace('-', '_')}.py").read_bytes())
+            told[INSTRUCTORS if _is_for_instructors(module) else "Commands"].append((name, _summary(module)))
+        for title, lines in told.items():
+            with formatter.section(title):
+                formatter.write_dl(lines)
 
 
-def _summary(file: Path) -> str:
+def _is_for_instructors(module: ast.Module) -> bool:
+    """Tell whether the docstring of a file of `commands/` says so in a line of its own."""
+    return f"{INSTRUCTORS}." in (ast.get_docstring(module) or "").splitlines()
+
+
+def _summary(module: ast.Module) -> str:
     """Return the first paragraph of the docstring of the function `command` in a file."""
-    for node in ast.parse(file.read_bytes()).body:
+    for node in module.body:
         if isinstance(node, ast.FunctionDef) and node.name == "command":
             return " ".join((ast.get_docstring(node) or "").partition("\n\n")[0].split())
     return ""

@@ -245,4 +245,6 @@ def make_report(
             for each in results
         ),
         notes=(*notes, *score.faults),
+        hints_shown=exercise.hints_shown,
+        untouched=bool(results[0].recording.facts().get("untouched")),
     )

@@ -1,4 +1,7 @@
-"""`course ci`: grade your repository on GitHub Actions."""
+"""`course ci`: grade your repository on GitHub Actions.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course diff EXERCISE`: the differences between starter and solution."""
+"""`course diff EXERCISE`: the differences between starter and solution.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course export EXERCISE GRADES --roster FILE --out FILE`: the grades of a class for Moodle or Canvas."""
+"""`course export EXERCISE GRADES --roster FILE --out FILE`: the grades of a class for Moodle or Canvas.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -52,6 +52,9 @@ def command(
     page: Annotated[
         bool, typer.Option("--page/--no-page", help="Write the HTML page beside the recording, unless --html names it.")
     ] = True,
+    details: Annotated[
+        bool, typer.Option("--details", help="Print what each check expected and measured; the page has it, too.")
+    ] = False,
     *,
     reports: dict[str, Path],
 ) -> None:
@@ -105,7 +108,7 @@ def command(
     from gz_course.grader.report.terminal import print_report
 
     try:
-        print_report(report, page=beside)
+        print_report(report, page=beside, details=details)
     finally:  # also if the terminal has been closed
         outputs.write(report)
         if own:

@@ -1,4 +1,7 @@
-"""`course grade-all EXERCISE DIR_OR_ZIP --out DIR`: grade a class; the same command resumes a run that was killed."""
+"""`course grade-all EXERCISE DIR_OR_ZIP --out DIR`: grade a class; the same command resumes a run that was killed.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course new NN_name`: create both halves of a new exercise that already passes `course verify`."""
+"""`course new NN_name`: create both halves of a new exercise that already passes `course verify`.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course package EXERCISE --out FILE.zip`: an autograder for Gradescope, or a question for PrairieLearn."""
+"""`course package EXERCISE --out FILE.zip`: an autograder for Gradescope, or a question for PrairieLearn.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course release DIR`: the students' copy of the course, without solutions."""
+"""`course release DIR`: the students' copy of the course, without solutions.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course score RECORDING...`: compute the score again from the recording alone."""
+"""`course score RECORDING...`: compute the score again from the recording alone.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course similar EXERCISE DIR_OR_ZIP --out DIR`: which submissions of a class are similar, as a hint for a person."""
+"""`course similar EXERCISE DIR_OR_ZIP --out DIR`: which submissions of a class are similar, as a hint for a person.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course snapshot RECORDING --at T --out FILE.png`: a picture of a moment of a run, without a display."""
+"""`course snapshot RECORDING --at T --out FILE.png`: a picture of a moment of a run, without a display.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course verify [EXERCISE]`: the instructor's proof that an exercise grades as it declares."""
+"""`course verify [EXERCISE]`: the instructor's proof that an exercise grades as it declares.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`course video RECORDING --out FILE.mp4|.gif`: a film of a run, without a display."""
+"""`course video RECORDING --out FILE.mp4|.gif`: a film of a run, without a display.
+
+For instructors.
+"""
 
 from __future__ import annotations
 

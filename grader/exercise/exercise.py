@@ -29,6 +29,7 @@ from gz_course.grader.exercise.trial import (
 from gz_course.grader.kinds.kind import find_kind, kind_names
 from gz_course.sim.did_you_mean import did_you_mean
 
+MOST_HINTS = 3  # where to look, which idea, the idea in another case
 TASK = re.compile(r"# (?P<title>[^\n]*\S)\n+(?P<summary>(?!## )\S.*?)\s*(?:^## .*)?", re.DOTALL | re.MULTILINE)
 
 
@@ -40,8 +41,13 @@ class CheckSpec:
     title: str
     points: float
     kind: str
-    hint: str
+    hints: tuple[str, ...]  # from where to look, over the idea, to the idea in another case
     parameters: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def hint(self) -> str:
+        """The first hint, which the report shows."""
+        return self.hints[0]
 
 
 @dataclass(frozen=True)
@@ -66,6 +72,7 @@ class Exercise:
     checks: tuple[CheckSpec, ...]
     files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
     bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
+    hints_shown: int = MOST_HINTS  # of each check, at most
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -164,6 +171,7 @@ def load_exercise(folder: Path) -> Exercise:
         script=read_script(manifest.tables("script", [])),
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
         bridge_parameters=_texts(run.table("bridge_parameters", {})),
+        hints_shown=_hints_shown(manifest),
         trials=read_trials(manifest.tables("trial", []), path, folder) or (PUBLIC,),
     )
     if Path(exercise.file).name != exercise.file:
@@ -209,6 +217,24 @@ def _texts(table: Table) -> dict[str, str]:
     return {key: table.text(key) for key in table.names()}
 
 
+def _hints_shown(manifest: Table) -> int:
+    """Return how many hints of a check students may see."""
+    number = manifest.integer("hints_shown", MOST_HINTS)
+    if not 1 <= number <= MOST_HINTS:
+        manifest.refuse("hints_shown", f"a number from 1 to {MOST_HINTS}")
+    return number
+
+
+def _hints(table: Table) -> tuple[str, ...]:
+    """Return the hints of a check: `hints`, a list of one to three, or a single `hint`."""
+    if not table.has("hints"):
+        return (table.text("hint"),)
+    hints = tuple(table.texts("hints"))
+    if not 1 <= len(hints) <= MOST_HINTS:
+        raise ManifestError(f"{table.where}: hints has {len(hints)} texts; give one to {MOST_HINTS}")
+    return hints
+
+
 def _check(path: Path, table: Table) -> CheckSpec:
     id = table.text("id")
     table.where = f"{path}: check {id!r}"
@@ -217,6 +243,6 @@ def _check(path: Path, table: Table) -> CheckSpec:
         title=table.text("title"),
         points=table.number("points", above=0),
         kind=table.text("kind"),
-        hint=table.text("hint"),
+        hints=_hints(table),
         parameters=table.rest(),
     )

@@ -80,6 +80,8 @@ class Report:
     versions: dict[str, Any]
     host: HostFacts | None = None
     trials: tuple[TrialReport, ...] = ()
+    hints_shown: int = 1  # of a check, at most
+    untouched: bool = False  # the submission is the starter
     notes: tuple[str, ...] = ()  # what a reader must know about the origin of the score
 
     @property
@@ -96,6 +98,12 @@ class Report:
     def shown_trial(self) -> TrialReport:
         """The trial to show: the first that lost points, else the first."""
         return next((trial for trial in self.trials if trial.score.points < self.max_score), self.trials[0])
+
+    @property
+    def first_failed(self) -> CheckResult | None:
+        """The failed check to begin with: that which no other check gates, and of these the one worth most."""
+        failed = [check for check in self.score.checks if not check.finding.passed]
+        return max(failed, key=lambda check: (not check.finding.gated, check.spec.points), default=None)
 
     def told(self, check: CheckResult) -> list[tuple[str, str]]:
         """Return (name, text) pairs on one check: expected, measured, when, and the hint if it failed.
@@ -122,6 +130,7 @@ class Report:
             "max_score": self.max_score,
             "outcome": self.score.outcome,
             "diagnosis": self.score.diagnosis,
+            "details": self.score.details,
             "notes": list(self.notes),
             "checks": [
                 {

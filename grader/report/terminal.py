@@ -1,6 +1,6 @@
-"""The report in a terminal: the diagnosis first, then what each check expected and measured.
+"""The report in a terminal: the first sentence of the diagnosis, a hint, and a line for each check.
 
-A report without a single point is short if a page beside it says the rest: what to do first, and what comes then.
+The page beside the recording has the rest; without one, and on request, it is all here.
 
 Used by the commands that grade. The layout is the same for every width; every state is a word as well as a colour. A
 student's text is printed without markup and control codes, and so that no build service takes a line for a command.
@@ -38,11 +38,17 @@ COMMANDS = re.compile(r"^([^\S\n]*(?:\x1b\[[0-9;]*m)*[^\S\n]*):(?=:)|#(?=#\[|#vs
 
 
 def print_report(
-    report: Report, file: TextIO | None = None, width: int | None = None, *, page: Path | None = None
+    report: Report,
+    file: TextIO | None = None,
+    width: int | None = None,
+    *,
+    page: Path | None = None,
+    details: bool = False,
 ) -> None:
     """Print one report to the terminal, or to `file` with `width` columns, in colour where that is supported.
 
-    `page` is the HTML report beside the recording, if there is one.
+    `page` is the HTML report beside the recording, if there is one; without it, and with `details`, everything is
+    printed.
     Raises UsageError if the recording of a node that died cannot be read.
     """
     target = file or sys.stdout
@@ -56,7 +62,7 @@ def print_report(
         no_color=told_to.no_color,
         highlight=False,
     )
-    _print(report, console, page)
+    _print(report, console, page, brief=page is not None and not details)
     text = disarmed(TRAILING.sub("", printed.getvalue()))
     encoding = getattr(target, "encoding", None) or "utf-8"
     target.write(text.encode(encoding, "replace").decode(encoding))
@@ -68,20 +74,21 @@ def disarmed(text: str) -> str:
     return COMMANDS.sub(lambda match: f"{match[0]} ", text)
 
 
-def _print(report: Report, console: Console, page: Path | None) -> None:
+def _print(report: Report, console: Console, page: Path | None, *, brief: bool) -> None:
     score = report.score
     console.print(_text("\n", (report.exercise, "bold"), "  ", report.title))
     console.print(_text("submission: ", report.submission), soft_wrap=True)
     if score.diagnosis:
         console.print(_text("\n", (score.diagnosis, "bold")))
+        if score.details and not brief:
+            console.print(_text(score.details))
     if score.outcome in ("student_error", "memory"):
         _print_last_lines(report, console)
+    if brief:
+        _print_hint(report, console)
     console.print()
-    if page is not None and not score.points and len(score.checks) > 1:
-        _print_first(report, console)
-    else:
-        for check in score.checks:
-            _print_check(check, report, console)
+    for check in score.checks:
+        _print_check(check, report, console, brief=brief)
     if len(report.trials) > 1:
         console.print(_text("\n", ("trials", "bold")))
         rows = Table.grid(padding=(0, 2, 0, 0))
@@ -104,24 +111,22 @@ def _print(report: Report, console: Console, page: Path | None) -> None:
         console.print(_text("page:      ", str(page)), soft_wrap=True)
 
 
-def _print_first(report: Report, console: Console) -> None:
-    """Print a line for each check, all of them failed, and the hint of the one to begin with if it is still unsaid."""
-    failed = [check for check in report.score.checks if not check.finding.passed]
-    first = max(failed, key=lambda check: not check.finding.gated, default=None)
-    for check in report.score.checks:
-        mark, earned = _text(MARKS[check.finding.passed]), f"{points(check.points)}/{points(check.spec.points)}"
-        console.print(_hanging(mark, _text(check.spec.title, "  ", (earned, "bold"))))
-        if check is first and report.measured and check.spec.hint not in report.score.diagnosis:
-            console.print(Padding(_hanging(_text("hint:"), _text(check.spec.hint), 10), (0, 0, 0, INDENT)))
-    console.print("\nThe page has what each check expected and measured, and the run to look at.")
+def _print_hint(report: Report, console: Console) -> None:
+    """Print the first hint of the check to begin with, unless another fault must be mended before."""
+    first = report.first_failed
+    if first is None or not report.measured or report.untouched:
+        return
+    console.print(_hanging(_text("hint:"), _text(first.spec.hint)))
+    if len(first.spec.hints) > 1 and report.hints_shown > 1:
+        console.print(_text(f"      course hint {report.exercise} shows the next one."))
 
 
-def _print_check(check: CheckResult, report: Report, console: Console) -> None:
+def _print_check(check: CheckResult, report: Report, console: Console, *, brief: bool) -> None:
     """Print one check. Without a measurement print no expectation: the diagnosis explains why."""
     finding = check.finding
     earned = f"{points(check.points)}/{points(check.spec.points)}"
     console.print(_hanging(_text(MARKS[finding.passed]), _text(check.spec.title, "  ", (earned, "bold"))))
-    if not report.measured:
+    if brief or not report.measured:
         return
     if finding.passed:
         when = "" if finding.at_s is None else f", at {finding.at_s:.2f} s"

@@ -29,6 +29,7 @@ from gz_course.grader.run.sandbox import AUTO, Sandbox
 from gz_course.grader.run.sandbox.environment import in_force
 from gz_course.grader.run.supervision import Heartbeat
 from gz_course.grader.submission import Submission
+from gz_course.grader.submission.untouched import untouched
 from gz_course.sim.bridge.ros_gz_bridge.qos_profile import reliable
 
 if TYPE_CHECKING:
@@ -117,5 +118,7 @@ def run(
         loop.heartbeat = heartbeat or loop.heartbeat
         with Recorder.begun(path, exercise.robot) as recorder:
             facts = loop.run(recorder)
-            write_properties(recorder, exercise, submission, trial, plan.facts | facts)
+            begin = untouched(exercise, submission)
+            more = {"untouched": begin} if begin else {}
+            write_properties(recorder, exercise, submission, trial, plan.facts | facts | more)
         return RunResult(recorder, sandbox.level, loop.pace_name, loop.wall_seconds)

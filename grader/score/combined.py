@@ -28,10 +28,11 @@ def combined(scores: Sequence[tuple[str, Score]]) -> Score:
     diagnosis = lost[0][1].diagnosis if lost else ""
     if lost and len(lost) < len(scores):
         diagnosis = f"In the trial {lost[0][0]}: {diagnosis}"
+    details = lost[0][1].details if lost else ""
     outcome = next((score.outcome for _, score in scores if score.outcome != "graded"), "graded")
     digest = hashlib.sha256("".join(score.truth_sha256 for _, score in scores).encode()).hexdigest()
     faults = tuple(dict.fromkeys(fault for _, score in scores for fault in score.faults))
-    return Score(checks, outcome, diagnosis, digest, faults)
+    return Score(checks, outcome, diagnosis, digest, details, faults)
 
 
 def _weakest(results: list[tuple[str, CheckResult]]) -> CheckResult:

@@ -15,6 +15,7 @@ from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
 from gz_course.grader.score.diagnosis import diagnose
+from gz_course.grader.score.first_sentence import split_first
 from gz_course.grader.score.topic_faults import silent
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
@@ -36,7 +37,7 @@ class CheckResult:
 
 @dataclass(frozen=True)
 class Score:
-    """The score of one run. `diagnosis` is the first sentence of feedback; empty for full marks.
+    """The score of one run. `diagnosis` is the first sentence of feedback and `details` the rest; empty for full marks.
 
     `faults` are sentences for the instructor on rules of feedback that failed.
     """
@@ -45,6 +46,7 @@ class Score:
     outcome: str
     diagnosis: str
     truth_sha256: str
+    details: str = ""
     faults: tuple[str, ...] = ()
 
     @property
@@ -84,10 +86,13 @@ def _score(recording: Recording, exercise: Exercise) -> Score:
         other = next((check for check in failed if check.finding.explanation and not check.finding.gated), None)
         if other is not None and not why:
             remarks.append(f"{other.spec.title}: {other.finding.explanation}.")
-        said = f"{worst.spec.title}: {f'{why} ({seen})' if why else seen}."
+        said = f"{worst.spec.title}: {why or seen}."
         where = "" if why or any(remarks) else made_in(recording.facts())
-        diagnosis = " ".join(filter(None, (*remarks, said, where, worst.spec.hint)))
-    return Score(checks, outcome, diagnosis if failed else "", truth_sha256(recording, exercise.robot))
+        diagnosis = " ".join(filter(None, (*remarks, said, where)))
+    first, details = split_first(diagnosis) if failed else ("", "")
+    if failed and (begin := recording.facts().get("untouched")):
+        first, details = str(begin), ""  # nothing is wrong yet
+    return Score(checks, outcome, first, truth_sha256(recording, exercise.robot), details)
 
 
 def _agreed(findings: list[Finding]) -> list[Finding]:

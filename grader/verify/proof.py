@@ -15,6 +15,7 @@ from pathlib import Path
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.grader.report.report import Report
+from gz_course.grader.score.first_sentence import words
 from gz_course.grader.score.score import Score
 from gz_course.grader.verify.declared import (
     FEWEST_ACCEPTED,
@@ -28,6 +29,8 @@ from gz_course.grader.verify.jobs import Job, Pool
 from gz_course.grader.verify.mutants import MOST, Mutant, choose, mutants_of
 
 REJECTED = "rejected/"
+
+MOST_FIRST, MOST_OPEN = 30, 70  # words of the first sentence, and of it and the hint beside it
 
 
 @dataclass
@@ -149,8 +152,16 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
     proof.faults += [f"passes {check}, which it must fail" for check in sorted(variant.fails - failed)]
     if not proof.faults:
         proof.faults += _trials(exercise, variant, report)
-    told = " ".join([report.score.diagnosis, *(c.finding.measured + c.spec.hint for c in report.score.checks)])
-    first = report.score.diagnosis
+    lost = [check for check in report.score.checks if not check.finding.passed]
+    hint = report.first_failed.spec.hint if report.first_failed is not None else ""
+    told = " ".join([check.finding.measured for check in lost] + [each for c in lost for each in c.spec.hints])
+    first = " ".join([report.score.diagnosis, report.score.details, hint])
+    if (length := words(report.score.diagnosis)) > MOST_FIRST:
+        proof.faults.append(
+            f"its first sentence has {length} words, more than {MOST_FIRST}: {report.score.diagnosis!r}"
+        )
+    if (length := words(f"{report.score.diagnosis} {hint}")) > MOST_OPEN:
+        proof.faults.append(f"its first sentence and hint have {length} words, more than {MOST_OPEN}: {hint!r}")
     for word in variant.words:
         if word not in first:
             where = "only further down" if word in told else "nowhere"

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import base64
 import functools
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from gz_course.grader.printable import shown, storable
 from gz_course.grader.record.reading import Recording
@@ -27,6 +28,7 @@ from gz_course.grader.score.score import CheckResult
 
 FOLDER = Path(__file__).parent
 LONGEST = 4000  # characters of one text
+CODE = re.compile(r"`([^`\n]+)`")
 APART = 0.05  # [s] moments closer together than this are drawn once
 MOST_VERDICTS = 4  # moments of failed checks that are drawn
 MAP, FRAME = 640, 360  # [pixels] width of the large drawing and of the small ones
@@ -44,7 +46,7 @@ class CheckRow:
     expected: str
     measured: str
     when: str
-    hint: str
+    hints: tuple[str, ...]
     trial: str
 
 
@@ -161,12 +163,18 @@ def compiled(name: str) -> Any:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["worded"] = worded
     return environment.get_template(name)
 
 
 def _plain(value: Any) -> Any:
     """Return foreign text on one line and shortened; leave our own markup unchanged."""
     return value if isinstance(value, Markup) or not isinstance(value, str) else shown(value, LONGEST)
+
+
+def worded(text: str) -> Markup:
+    """Return a sentence as a page shows it: what stands between backticks is code."""
+    return Markup(CODE.sub(r"<code>\1</code>", str(escape(shown(text, LONGEST)))))
 
 
 def _check_row(check: CheckResult, report: Report) -> CheckRow:
@@ -179,7 +187,8 @@ def _check_row(check: CheckResult, report: Report) -> CheckRow:
         expected=finding.expected,
         measured=finding.measured,
         when="" if finding.at_s is None else f"{finding.at_s:.2f} s",
-        hint="" if finding.gated else told.get("hint", ""),  # of a closed gate another check gives the reason
+        # Of a closed gate another check gives the reason.
+        hints=() if finding.gated or "hint" not in told else check.spec.hints[: report.hints_shown],
         trial="" if finding.passed else _decisive(check, report.trials)[0].name,
     )
 

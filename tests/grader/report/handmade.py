@@ -34,7 +34,7 @@ def result(id, passed, measured="was 0.5", **finding):
         f"Title of {id}",
         50,
         "time_in_band",
-        f"Hint for {id}.",
+        (f"Hint for {id}.",),
         {"conditions": [{"signal": "truth/robot/linear_x", "name": "forward speed", "unit": "m/s"}]},
     )
     bands = (Band("truth/robot/linear_x", 0.45, 0.55, 0.5, 3.0),)

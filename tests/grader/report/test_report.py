@@ -58,7 +58,7 @@ def test_full_marks():
 
 
 def test_full_marks_do_not_hang_on_rounding():
-    spec = CheckSpec("a", "A", 0.1, "change", "")
+    spec = CheckSpec("a", "A", 0.1, "change", ("",))
     checks = tuple(CheckResult(dataclasses.replace(spec, points=p), Finding(True, "", "")) for p in (0.1, 0.2, 0.3))
     report = dataclasses.replace(REPORT, score=dataclasses.replace(REPORT.score, checks=checks), max_score=0.6)
     assert report.full_marks

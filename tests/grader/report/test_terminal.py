@@ -68,10 +68,42 @@ def nothing_earned(**more):
     return dataclasses.replace(REPORT, score=score_of(first, gated, diagnosis="Begin with the good one."), **more)
 
 
-def test_without_a_point_the_page_says_the_rest():
+def beside_a_page(report, **how):
     out = io.StringIO()
-    print_report(nothing_earned(), out, 100, page=Path("runs/03_teleop.html"))
-    text = out.getvalue()
+    print_report(report, out, 100, page=Path("runs/03_teleop.html"), **how)
+    return out.getvalue()
+
+
+def with_hints(report, *hints):
+    """The report with these hints for each check."""
+    checks = [dataclasses.replace(c, spec=dataclasses.replace(c.spec, hints=hints)) for c in report.score.checks]
+    return dataclasses.replace(report, score=dataclasses.replace(report.score, checks=tuple(checks)))
+
+
+def test_a_further_hint_is_offered_if_there_is_one():
+    further = "course hint 03_teleop shows the next one."
+    three = with_hints(REPORT, "Look there.", "The idea.", "Another case.")
+    assert further not in beside_a_page(REPORT)
+    assert further not in beside_a_page(three)  # the instructor shows one
+    text = beside_a_page(dataclasses.replace(three, hints_shown=3))
+    assert "hint: Look there.\n" in text and further in text
+    assert "The idea." not in text
+
+
+def test_a_starter_gets_no_hint():
+    text = beside_a_page(dataclasses.replace(REPORT, untouched=True))
+    assert "hint:" not in text
+
+
+def test_details_are_printed_on_request():
+    told = dataclasses.replace(REPORT, score=dataclasses.replace(REPORT.score, details="The rest of it."))
+    assert "The rest of it." not in beside_a_page(told)
+    text = beside_a_page(told, details=True)
+    assert "The rest of it." in text and "measured: was 0.5" in text
+
+
+def test_the_page_says_the_rest():
+    text = beside_a_page(nothing_earned())
     assert "Begin with the good one." in text
     assert text.count("FAIL") == 2
     assert "Hint for good." in text and "Hint for bad." not in text

@@ -10,7 +10,7 @@ SIGNAL = "truth/robot/x"
 
 
 def spec(kind="change", **parameters):
-    return CheckSpec(id="it", title="It", points=10, kind=kind, hint="Do it.", parameters=parameters)
+    return CheckSpec(id="it", title="It", points=10, kind=kind, hints=("Do it.",), parameters=parameters)
 
 
 GATE = {"signal": "truth/robot/distance", "reaches": 0.5, "otherwise": "it never drove"}

@@ -25,7 +25,7 @@ def truth(poses=POSES):
 
 
 def check(id, points, low, title="A title"):
-    return CheckSpec(id, title, points, "change", f"Hint for {id}.", {"signal": "truth/robot/x", "band": [low, 9]})
+    return CheckSpec(id, title, points, "change", (f"Hint for {id}.",), {"signal": "truth/robot/x", "band": [low, 9]})
 
 
 @pytest.fixture
@@ -38,14 +38,14 @@ def test_points_diagnosis_and_outcome(record, exercise):
     verdict = score(record(truth()), exercise)
     assert [(c.spec.id, c.points) for c in verdict.checks] == [("small", 30), ("large", 0.0)]
     assert (verdict.points, verdict.outcome) == (30, "graded")
-    assert verdict.diagnosis == "The large one: changed by 0.50. Hint for large."
+    assert verdict.diagnosis == "The large one: changed by 0.50."
 
 
 def test_a_whole_number_where_a_float_belongs_is_told_first(record, exercise):
     place = {"file": "node.py", "line": 19, "field": "command.linear.x", "value": "1"}
     diagnosis = score(record(truth(), facts={"whole_numbers": [place]}), exercise).diagnosis
     assert diagnosis.startswith("node.py, line 19: command.linear.x = 1 is no float, but the field holds one")
-    assert diagnosis.endswith("The large one: changed by 0.50. Hint for large.")
+    assert diagnosis.endswith("The large one: changed by 0.50.")
 
 
 def test_full_marks_have_no_diagnosis_whatever_was_odd(record, exercise):

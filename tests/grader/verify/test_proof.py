@@ -22,7 +22,7 @@ CHECKS = ("a", "b")
 @pytest.fixture
 def exercise(root):
     given = find_exercise("03", root)
-    specs = tuple(CheckSpec(id, f"Check {id}", 10, "change", "A hint.") for id in CHECKS)
+    specs = tuple(CheckSpec(id, f"Check {id}", 10, "change", ("A hint.",)) for id in CHECKS)
     return dataclasses.replace(given, checks=specs, trials=(Trial("open", 0), Trial("wide", 1)))
 
 

@@ -29,7 +29,7 @@ TAGS = {
     "html", "head", "meta", "title", "style", "body", "a", "header", "main", "footer", "section", "p", "h1", "h2", "h3",
     "div", "table", "thead", "tbody", "tr", "th", "td", "span", "strong", "br", "figure", "figcaption", "svg", "pre",
     "code", "ul", "li", "dl", "dt", "dd", "img", "g", "button", "input", "label", "select", "option",
-    "output", "script",
+    "output", "script", "details", "summary",
 } | SHAPES  # fmt: skip
 
 

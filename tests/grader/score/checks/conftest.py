@@ -11,6 +11,6 @@ def found():
     """`found("within", recording, start=1.0, ...)`: what a check of this kind finds."""
 
     def call(kind, recording, folder=None, **parameters):
-        return perform(CheckSpec("it", "A title", 10, kind, "A hint.", parameters), recording, folder)
+        return perform(CheckSpec("it", "A title", 10, kind, ("A hint.",), parameters), recording, folder)
 
     return call

@@ -1,0 +1,46 @@
+"""A submission that is still the starter: nothing in it can be wrong, and the report says where to begin."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from gz_course.grader.errors import UsageError
+from gz_course.grader.exercise import Exercise
+from gz_course.grader.exercise.pristine import pristine
+from gz_course.grader.printable import shown
+from gz_course.grader.submission.submission import Submission
+
+PART = re.compile(r"^\s*#\s*(?:Your part|Part 1): *(.*)$")
+COMMENT = re.compile(r"^\s*#\s?(.*)$")
+MOST_WORDS = 16  # of the part that is quoted
+
+
+def untouched(exercise: Exercise, submission: Submission) -> str:
+    """Return where to begin, one sentence, if every file is as it was handed out; else nothing."""
+    try:
+        starter = pristine(exercise)
+    except UsageError:  # nobody knows what was handed out
+        return ""
+    if any(submission.files.get(name) != content for name, content in starter.items()):
+        return ""
+    for name in exercise.parts:
+        if part := _first_part(starter[name]):
+            line, text = part
+            return shown(f"{Path(name).name} is as it was handed out. Begin at line {line}: {text}")
+    return f"{exercise.file} is as it was handed out. Begin with the task, exercises/{exercise.name}/README.md."
+
+
+def _first_part(content: bytes) -> tuple[int, str] | None:
+    """Return the line of the first part to fill in, and what it asks for."""
+    lines = content.decode(errors="replace").splitlines()
+    for number, line in enumerate(lines):
+        if match := PART.match(line):
+            words = match[1].split()
+            for further in lines[number + 1 :]:
+                if (more := COMMENT.match(further)) is None:
+                    break
+                words += more[1].split()
+            text = " ".join(words[:MOST_WORDS]).rstrip(".,;:")
+            return number + 1, f"{text}{' ...' if len(words) > MOST_WORDS else '.'}"
+    return None
