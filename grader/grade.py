@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gz_course.grader.errors import UsageError
-from gz_course.grader.exercise import Exercise, find_exercise
+from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
 from gz_course.grader.exercise.trial import Trial, numbered
 from gz_course.grader.printable import shown
 from gz_course.grader.process.output_lock import sole_writer
@@ -211,6 +211,19 @@ def _check_trials(paths: list[Path], runs: list[dict[str, Any]]) -> None:
         )
 
 
+def _after(exercise: Exercise) -> tuple[str, ...]:
+    """Return what to say after full marks: other ways, what to try, and the next exercise of the course."""
+    said = []
+    if exercise.other_ways:
+        said.append(f"Other ways: {'; '.join(exercise.other_ways)}.")
+    if exercise.further:
+        said.append(f"Try next: {exercise.further}")
+    names = exercise_names(exercise.folder.parents[1])
+    if exercise.name in names[:-1]:
+        said.append(f"The next exercise is {names[names.index(exercise.name) + 1]}.")
+    return tuple(said)
+
+
 def make_report(
     results: Sequence[TrialResult],
     exercise: Exercise,
@@ -246,5 +259,6 @@ def make_report(
         ),
         notes=(*notes, *score.faults),
         hints_shown=exercise.hints_shown,
+        after=_after(exercise),
         untouched=bool(results[0].recording.facts().get("untouched")),
     )

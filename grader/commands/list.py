@@ -12,6 +12,8 @@ from rich.table import Table
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import CheckSpec, Exercise, course_root, exercise_names, find_exercise
+from gz_course.grader.lessons.kept import Kept
+from gz_course.grader.lessons.lesson import number_of_steps
 from gz_course.grader.report.best import best_scores, runs_folder
 
 
@@ -36,12 +38,24 @@ def command(
     if exercise is not None:
         print_rubric(exercises[0], console, told[exercises[0].name])
     else:
-        table = plain_table("exercise", "points", "best", "file", "title")
+        table = plain_table("exercise", "points", "best", "steps", "file", "title")
+        begin = next((e.name for e in exercises if best.scores.get(e.name, 0.0) < e.max_score), "")
         for each in exercises:
-            table.add_row(each.name, f"{each.max_score:g}", told[each.name], each.file, each.title)
+            table.add_row(
+                each.name, f"{each.max_score:g}", told[each.name], _steps(each, root), each.file, each.title
+            )
         console.print(table)
+        console.print(f"\nNext: {begin}" if begin else "\nEvery exercise has full marks.", highlight=False)
     for name in sorted(best.stale - best.scores.keys()):
         console.print(f"\n{name} had other points when it was graded; grade it again.", highlight=False)
+
+
+def _steps(exercise: Exercise, root: Path) -> str:
+    """Return how many of the cells to write of its chapter are done; nothing if it has none."""
+    if not (count := number_of_steps(exercise.grading)):
+        return ""
+    done = Kept(root / "chapters" / exercise.name).steps()
+    return f"{min(len(done), count)}/{count}"
 
 
 def print_rubric(exercise: Exercise, console: Console, best: str) -> None:

@@ -73,6 +73,8 @@ class Exercise:
     files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
     bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
     hints_shown: int = MOST_HINTS  # of each check, at most
+    other_ways: tuple[str, ...] = ()  # to full marks, in words
+    further: str = ""  # what to try after full marks
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -150,7 +152,7 @@ def load_exercise(folder: Path) -> Exercise:
     path = grading / MANIFEST
     manifest = Table.load(path)
     title, summary = read_task(grading.parent / README)
-    run = manifest.table("run")
+    run, full_marks = manifest.table("run"), manifest.table("full_marks", {})
     kind = manifest.choice("kind", kind_names()) if manifest.has("kind") else "node"
     exercise = Exercise(
         name=folder.name,
@@ -172,13 +174,15 @@ def load_exercise(folder: Path) -> Exercise:
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
         bridge_parameters=_texts(run.table("bridge_parameters", {})),
         hints_shown=_hints_shown(manifest),
+        other_ways=tuple(full_marks.texts("other_ways")) if full_marks.has("other_ways") else (),
+        further=full_marks.text("further", ""),
         trials=read_trials(manifest.tables("trial", []), path, folder) or (PUBLIC,),
     )
     if Path(exercise.file).name != exercise.file:
         manifest.refuse("file", "the name of a file, without folders")
     if any(not is_below(name) for name in exercise.files) or len(set(exercise.parts)) < len(exercise.parts):
         manifest.refuse("files", "paths of further files below the exercise's folder, each once")
-    for table in (run, manifest):
+    for table in (run, full_marks, manifest):
         table.end()
     ids = [check.id for check in exercise.checks]
     if twice := {i for i in ids if ids.count(i) > 1}:

@@ -81,6 +81,7 @@ class Report:
     host: HostFacts | None = None
     trials: tuple[TrialReport, ...] = ()
     hints_shown: int = 1  # of a check, at most
+    after: tuple[str, ...] = ()  # sentences for full marks: other ways, what to try, the next exercise
     untouched: bool = False  # the submission is the starter
     notes: tuple[str, ...] = ()  # what a reader must know about the origin of the score
 

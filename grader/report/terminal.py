@@ -96,6 +96,10 @@ def _print(report: Report, console: Console, page: Path | None, *, brief: bool) 
             earned = f"{points(trial.score.points)}/{points(report.max_score)}"
             rows.add_row(*map(_text, (trial.name, f"seed {trial.seed}", earned, trial.score.outcome)))
         console.print(Padding(rows, (0, 0, 0, 2)))
+    if report.full_marks and report.after:
+        console.print()
+        for line in report.after:
+            console.print(_text(line))
     verdict = f"score: {points(score.points)} of {points(report.max_score)}"
     console.print(_text("\n", (verdict, "bold"), f"  ({score.outcome})"))
     for note in report.notes:
