@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 MOST_WORDS = 26  # so that with the name of a trial before it there are 30
-SENTENCE = re.compile(r"(?<=[.?!])(?<!\be\.g\.)(?<!\bi\.e\.)(?<!\bvs\.) +(?=[\"'(<~/`]*[A-Z0-9`])")
+SENTENCE = re.compile(r"(?<=[.?!])(?<!\be\.g\.)(?<!\bi\.e\.) +(?=[\"'(<`]*(?:[A-Z0-9/~]|\w+(?:[._]\w|\()))")
 CLAUSE = re.compile(r"; |: |\. | \((?=[^()]*\)\.?$)")
 
 

@@ -22,7 +22,8 @@ def untouched(exercise: Exercise, submission: Submission) -> str:
         starter = pristine(exercise)
     except UsageError:  # nobody knows what was handed out
         return ""
-    if any(submission.files.get(name) != content for name, content in starter.items()):
+    given = submission.files | {exercise.file: submission.files.get(submission.main, b"")}
+    if any(given.get(name) != content for name, content in starter.items()):
         return ""
     for name in exercise.parts:
         if part := _first_part(starter[name]):
