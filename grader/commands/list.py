@@ -41,9 +41,7 @@ def command(
         table = plain_table("exercise", "points", "best", "steps", "file", "title")
         begin = next((e.name for e in exercises if best.scores.get(e.name, 0.0) < e.max_score), "")
         for each in exercises:
-            table.add_row(
-                each.name, f"{each.max_score:g}", told[each.name], _steps(each, root), each.file, each.title
-            )
+            table.add_row(each.name, f"{each.max_score:g}", told[each.name], _steps(each, root), each.file, each.title)
         console.print(table)
         console.print(f"\nNext: {begin}" if begin else "\nEvery exercise has full marks.", highlight=False)
     for name in sorted(best.stale - best.scores.keys()):

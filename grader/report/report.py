@@ -130,8 +130,8 @@ class Report:
             "score": self.score.points,
             "max_score": self.max_score,
             "outcome": self.score.outcome,
-            "diagnosis": self.score.diagnosis,
-            "details": self.score.details,
+            "diagnosis": self.score.feedback,
+            "first_sentence": self.score.diagnosis,
             "notes": list(self.notes),
             "checks": [
                 {

@@ -50,6 +50,11 @@ class Score:
     faults: tuple[str, ...] = ()
 
     @property
+    def feedback(self) -> str:
+        """The diagnosis and its details."""
+        return f"{self.diagnosis} {self.details}".strip()
+
+    @property
     def points(self) -> float:
         return sum(check.points for check in self.checks)
 
@@ -88,7 +93,8 @@ def _score(recording: Recording, exercise: Exercise) -> Score:
             remarks.append(f"{other.spec.title}: {other.finding.explanation}.")
         said = f"{worst.spec.title}: {why or seen}."
         where = "" if why or any(remarks) else made_in(recording.facts())
-        diagnosis = " ".join(filter(None, (*remarks, said, where)))
+        seen = f"Measured: {seen}." if why else ""
+        diagnosis = " ".join(filter(None, (*remarks, said, where, seen)))
     first, details = split_first(diagnosis) if failed else ("", "")
     if failed and (begin := recording.facts().get("untouched")):
         first, details = str(begin), ""  # nothing is wrong yet

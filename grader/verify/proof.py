@@ -156,7 +156,7 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
     hint = report.first_failed.spec.hint if report.first_failed is not None else ""
     told = " ".join([check.finding.measured for check in lost] + [each for c in lost for each in c.spec.hints])
     all_hints = report.first_failed.spec.hints if report.first_failed is not None else ()
-    first = " ".join([report.score.diagnosis, report.score.details, *all_hints])
+    first = " ".join([report.score.feedback, *all_hints])
     if (length := words(report.score.diagnosis)) > MOST_FIRST:
         proof.faults.append(
             f"its first sentence has {length} words, more than {MOST_FIRST}: {report.score.diagnosis!r}"

@@ -62,7 +62,7 @@ def _test(number: int, check: CheckResult, report: Report) -> dict[str, Any]:
 def _output(report: Report) -> str:
     """Return the diagnosis and, unless all is well, the end of the node's log."""
     verdict = f"{points(report.score.points)} of {points(report.max_score)} points. "
-    lines = [report.score.diagnosis, verdict + OUTCOMES.get(report.score.outcome, report.score.outcome), *report.notes]
+    lines = [report.score.feedback, verdict + OUTCOMES.get(report.score.outcome, report.score.outcome), *report.notes]
     if not report.full_marks:
         said = log_of(report, 0, LINES)
         lines += ["", f"What {said.who} said last:", said.as_text() or "nothing"]

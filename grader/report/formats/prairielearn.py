@@ -47,14 +47,14 @@ def as_dict(report: Report) -> dict[str, Any]:
     results: dict[str, Any] = {
         "gradable": started,
         "score": min(1.0, max(0.0, report.score.points / report.max_score)),
-        "message": " ".join(line for line in (report.score.diagnosis, verdict, *report.notes) if line),
+        "message": " ".join(line for line in (report.score.feedback, verdict, *report.notes) if line),
         "output": "" if report.full_marks else f"What {said.who} said last:\n{said.as_text() or 'nothing'}",
         "tests": [_test(check, report) for check in report.score.checks],
         "images": _images(report) if report.sim_seconds else [],
         "extra": {key: data[key] for key in ("exercise", "outcome", "truth_sha256")},
     }
     if not started:
-        results["format_errors"] = [report.score.diagnosis or OUTCOMES[report.score.outcome]]
+        results["format_errors"] = [report.score.feedback or OUTCOMES[report.score.outcome]]
     return results
 
 

@@ -43,7 +43,7 @@ def test_points_diagnosis_and_outcome(record, exercise):
 
 def test_a_whole_number_where_a_float_belongs_is_told_first(record, exercise):
     place = {"file": "node.py", "line": 19, "field": "command.linear.x", "value": "1"}
-    diagnosis = score(record(truth(), facts={"whole_numbers": [place]}), exercise).diagnosis
+    diagnosis = score(record(truth(), facts={"whole_numbers": [place]}), exercise).feedback
     assert diagnosis.startswith("node.py, line 19: command.linear.x = 1 is no float, but the field holds one")
     assert diagnosis.endswith("The large one: changed by 0.50.")
 
@@ -107,12 +107,13 @@ def test_a_check_that_names_the_misconception_says_more_than_that_nothing_was_pu
     assert score(silent, unnamed).diagnosis == "Your node has a publisher on /count but never published a message."
     spec = dataclasses.replace(spec, parameters=spec.parameters | {"why": "it jumps at pi"})
     named = dataclasses.replace(unnamed, checks=(spec,))
-    assert score(silent, named).diagnosis == "Turns once: it jumps at pi (it turned twice). Hint."
+    assert score(silent, named).diagnosis == "Turns once: it jumps at pi."
+    assert score(silent, named).details == "Measured: it turned twice."
 
 
 def test_where_a_wrong_value_is_made_is_said_if_nothing_else_is_known(record, exercise):
     origins = [{"file": "node.py", "line": 7, "code": "command.linear.x = 0.7"}]
-    said = score(record(truth(), facts={"origins": origins}), exercise).diagnosis
+    said = score(record(truth(), facts={"origins": origins}), exercise).feedback
     assert "What your node sends is made in line 7, `command.linear.x = 0.7`." in said
     slip = {"file": "node.py", "line": 3, "said": "that is a slip"}
-    assert "line 7" not in score(record(truth(), facts={"origins": origins, "slips": [slip]}), exercise).diagnosis
+    assert "line 7" not in score(record(truth(), facts={"origins": origins, "slips": [slip]}), exercise).feedback

@@ -90,7 +90,7 @@ def test_a_solution_must_pass_in_every_trial(exercise):
 
 def test_words_stand_in_the_first_line(exercise):
     assert faults(exercise, variant(words=("not so", "hint")), open="a") == []
-    first = "'Check: not so. A hint.'"
+    first = "'Check: not so. A hint. A hint.'"
     assert faults(exercise, variant(words=("wheel",)), open="a") == [
         f"its first line of feedback does not say 'wheel' (nowhere does it stand): {first}"
     ]
