@@ -14,7 +14,7 @@ CLAUSE = re.compile(r"; |: |\. | \((?=[^()]*\)\.?$)")
 
 def split_first(text: str, most: int = MOST_WORDS) -> tuple[str, str]:
     """Return the first sentence of a text, of at most so many words if it has a place to be cut, and the rest."""
-    sentences = SENTENCE.split(text.strip(), maxsplit=1)
+    sentences = SENTENCE.split(text.strip(" "), maxsplit=1)
     first, rest = sentences[0], sentences[1] if len(sentences) > 1 else ""
     if words(first) > most and (cut := _cut(first, most)):
         end = first[cut.end() :].strip()

@@ -52,7 +52,7 @@ class Score:
     @property
     def feedback(self) -> str:
         """The diagnosis and its details."""
-        return f"{self.diagnosis} {self.details}".strip()
+        return f"{self.diagnosis} {self.details}".strip(" ")
 
     @property
     def points(self) -> float:

@@ -164,8 +164,8 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
     if (length := words(f"{report.score.diagnosis} {hint}")) > MOST_OPEN:
         proof.faults.append(f"its first sentence and hint have {length} words, more than {MOST_OPEN}: {hint!r}")
     for word in variant.words:
-        if word not in first:
-            where = "only further down" if word in told else "nowhere"
+        if word.casefold() not in first.casefold():
+            where = "only further down" if word.casefold() in told.casefold() else "nowhere"
             proof.faults.append(f"its first line of feedback does not say {word!r} ({where} does it stand): {first!r}")
     return proof
 

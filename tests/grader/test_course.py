@@ -44,7 +44,7 @@ def test_an_unknown_command(course):
 def test_the_list_shows_every_exercise_with_its_points(course):
     outcome = course("list")
     assert outcome.code == 0
-    assert re.search(r"03_teleop +100 +- +teleop_node.py", outcome.stdout)
+    assert re.search(r"03_teleop +100 +- +0/\d +teleop_node.py", outcome.stdout)
     assert "04_lidar_listener" in outcome.stdout
 
 

@@ -68,6 +68,6 @@ def nearest_anywhere(run: Run) -> str:
         return ""
     other = "left" if run.side == "right" else "right"
     return (
-        f"at {times[first]:.1f} s something on the {other} of the robot was nearer than the wall it follows, "
-        f"{on_other[first]:.2f} m, and it left its wall: take the nearest range on the {run.side}, not of all"
+        f"at {times[first]:.1f} s something on the {other} of the robot was nearer than its wall, "
+        f"{on_other[first]:.2f} m, and it left its wall; take the nearest range on the {run.side}, not of all"
     )
