@@ -226,6 +226,10 @@ class RunningWorld(Tried):
                 return topic.removeprefix("/world/").removesuffix(POSES)
         raise NotYet("No world runs; run the cell that starts `gz sim`.")
 
+    def message_type(self, name: str) -> Any:
+        """Return the class of messages of a type, such as `std_msgs/msg/String`."""
+        return _message(name)
+
     def recording(self) -> Any:
         from gz_course.grader.record.reading import Recording
 

@@ -151,6 +151,10 @@ class Tried(abc.ABC):
         """Take a model out of the world, for example so that its name may be given again."""
 
     @abc.abstractmethod
+    def message_type(self, name: str) -> Any:
+        """Return the class of messages of a type, such as `std_msgs/msg/String`."""
+
+    @abc.abstractmethod
     def recording(self) -> Any:
         """Return the recording that the last grading of the chapter's exercise left."""
 

@@ -26,9 +26,7 @@ def motion(tried: Tried) -> Motion:
 
 def greetings(tried: Tried, command: str) -> list[Any]:
     """Return what comes on /greeting; the node's time begins when it has been found, so that nothing is lost."""
-    from rosgraph_msgs.msg import Clock
-    from std_msgs.msg import String
-
+    Clock, String = tried.message_type("rosgraph_msgs/msg/Clock"), tried.message_type("std_msgs/msg/String")
     heard: list[Any] = []
     with tried.node() as (node, spin_until):
         node.create_subscription(String, "/greeting", heard.append, 10)
@@ -85,9 +83,7 @@ def where(tried: Tried) -> str:
 @step("greeting", objective=3)
 def greeting(tried: Tried) -> str:
     """`greeting` is a std_msgs/msg/String that says good night."""
-    from std_msgs.msg import String
-
-    said = tried.value("greeting", String).data
+    said = tried.value("greeting", tried.message_type("std_msgs/msg/String")).data
     expect(said == "good night", f"The message says {said!r}; 'good night' is wanted, letter by letter.")
     return "It is a String that says 'good night'."
 

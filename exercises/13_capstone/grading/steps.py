@@ -73,8 +73,7 @@ def passed_cells(tried: Tried) -> str:
 @step("index_of", objective=2)
 def index_of(tried: Tried) -> str:
     """index_of(x, y, info) is the place of a point's cell in the data of a map."""
-    from nav_msgs.msg import MapMetaData
-
+    MapMetaData = tried.message_type("nav_msgs/msg/MapMetaData")
     function = tried.function("index_of")
     for size, width, height, left, bottom in ((0.2, 40, 30, -4.0, -3.0), (0.1, 100, 80, -5.0, -4.0)):
         info: Any = MapMetaData(resolution=size, width=width, height=height)
