@@ -21,7 +21,7 @@ class Motion:
     passed: float
 
     def __str__(self) -> str:
-        return f"drives at {self.speed:.2f} m/s and turns at {self.rate:.2f} rad/s"
+        return f"drives at {self.speed:z.2f} m/s and turns at {self.rate:z.2f} rad/s"
 
 
 def motion_of(poses: Sequence[Pose]) -> Motion:

@@ -75,9 +75,9 @@ def where(tried: Tried) -> str:
     robot = tried.poses("robot")[-1]
     expect(
         math.hypot(x - robot.x, y - robot.y) < NEAR,
-        f"The position printed is ({x:.2f}, {y:.2f}) m; the robot is at ({robot.x:.2f}, {robot.y:.2f}) m.",
+        f"The position printed is ({x:z.2f}, {y:z.2f}) m; the robot is at ({robot.x:z.2f}, {robot.y:z.2f}) m.",
     )
-    return f"The robot is at ({x:.2f}, {y:.2f}) m, and the command says so."
+    return f"The robot is at ({x:z.2f}, {y:z.2f}) m, and the command says so."
 
 
 @step("greeting", objective=3)
@@ -107,6 +107,6 @@ def mean_speed(tried: Tried) -> str:
     said = float(tried.value("mean_speed", (int, float)))
     expect(
         abs(said - way / time) < 0.01,
-        f"The robot drove {way:.2f} m in a run of {time:.2f} s; {said:.2f} m/s is not its mean speed.",
+        f"The robot drove {way:z.2f} m in a run of {time:z.2f} s; {said:z.2f} m/s is not its mean speed.",
     )
-    return f"{way:.2f} m in {time:.2f} s: on average {said:.2f} m/s."
+    return f"{way:z.2f} m in {time:z.2f} s: on average {said:z.2f} m/s."

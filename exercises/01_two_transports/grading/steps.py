@@ -43,8 +43,8 @@ def measure(tried: Tried) -> str:
         raise NotYet("The command printed no message of the IMU, which has a field linear_acceleration.")
     expect(count == 1, f"The command printed {count} messages; one is wanted.")
     upwards = float(found[1])
-    expect(GRAVITY[0] < upwards < GRAVITY[1], f"The IMU measures {upwards:.2f} m/s^2 upwards. Has the robot fallen?")
-    return f"The IMU measures {upwards:.2f} m/s^2 upwards: so strongly the floor holds the robot up."
+    expect(GRAVITY[0] < upwards < GRAVITY[1], f"The IMU measures {upwards:z.2f} m/s^2 upwards. Has the robot fallen?")
+    return f"The IMU measures {upwards:z.2f} m/s^2 upwards: so strongly the floor holds the robot up."
 
 
 @step("turn_left", objective=2, form=COMMANDS)
@@ -115,4 +115,4 @@ def imu_bridge(tried: Tried) -> str:
         not tried.both_ways("/imu"),
         "The measurements come, but the bridge also listens to /imu in ROS, to pass it on to Gazebo.",
     )
-    return f"ROS has the IMU: {heard[0].linear_acceleration.z:.2f} m/s^2 upwards."
+    return f"ROS has the IMU: {heard[0].linear_acceleration.z:z.2f} m/s^2 upwards."

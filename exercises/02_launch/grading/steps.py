@@ -51,8 +51,8 @@ def crier(tried: Tried) -> str:
     if found is None:
         raise NotYet("The town crier said no time.")
     seconds = float(found[1])
-    expect(seconds < EPOCH, f"The town crier says {seconds:.1f} s: seconds since 1970, and not simulated time.")
-    return f"The town crier says {seconds:.1f} s: simulated time."
+    expect(seconds < EPOCH, f"The town crier says {seconds:z.1f} s: seconds since 1970, and not simulated time.")
+    return f"The town crier says {seconds:z.1f} s: simulated time."
 
 
 @step("passed_on", objective=2, form="passed_on.launch.py", limit=LONG)

@@ -42,15 +42,15 @@ def circle(tried: Tried) -> str:
     """The robot drives a circle with a radius of 0.5 m, to the left."""
     moves = motion(tried)
     speed, rate = moves.speed, moves.rate
-    expect(abs(speed) > 0.05, f"The robot drives at {speed:.2f} m/s: too slowly to see a circle.")
-    expect(abs(rate) > 0.02, f"The robot drives at {speed:.2f} m/s straight on; a circle needs a turn.")
+    expect(abs(speed) > 0.05, f"The robot drives at {speed:z.2f} m/s: too slowly to see a circle.")
+    expect(abs(rate) > 0.02, f"The robot drives at {speed:z.2f} m/s straight on; a circle needs a turn.")
     radius = speed / rate
-    expect(rate > 0, f"The robot turns to the right, at {rate:.2f} rad/s; the circle should go to the left.")
+    expect(rate > 0, f"The robot turns to the right, at {rate:z.2f} rad/s; the circle should go to the left.")
     expect(
         abs(radius - 0.5) < 0.05,
-        f"At {speed:.2f} m/s and {rate:.2f} rad/s the radius is {radius:.2f} m; 0.5 m is wanted.",
+        f"At {speed:z.2f} m/s and {rate:z.2f} rad/s the radius is {radius:z.2f} m; 0.5 m is wanted.",
     )
-    return f"The robot drives a circle to the left with a radius of {radius:.2f} m."
+    return f"The robot drives a circle to the left with a radius of {radius:z.2f} m."
 
 
 @step("seconds_since", objective=4)
@@ -64,6 +64,6 @@ def seconds_since(tried: Tried) -> str:
     expect(isinstance(said, float | int), f"seconds_since returns a {type(said).__name__}; a number is wanted.")
     expect(
         abs(said - wanted) < 1e-6,
-        f"Two readings of /clock are {wanted:.3f} s apart; seconds_since says {said:g}.",
+        f"Two readings of /clock are {wanted:z.3f} s apart; seconds_since says {said:g}.",
     )
-    return f"Two readings of /clock are {wanted:.3f} s apart, and seconds_since says so."
+    return f"Two readings of /clock are {wanted:z.3f} s apart, and seconds_since says so."

@@ -55,7 +55,7 @@ def beam_at(tried: Tried) -> str:
                 expect(whole, f"beam_at returns a {type(said).__name__}; an index is a whole number.")
                 expect(
                     said == right,
-                    f"For {what} and {angle + aside:.4f} rad it says beam {said}; beam {right} points nearest.",
+                    f"For {what} and {angle + aside:z.4f} rad it says beam {said}; beam {right} points nearest.",
                 )
     return "It finds the beam for this lidar, and for one that begins ahead."
 
@@ -92,8 +92,8 @@ def point_of(tried: Tried) -> str:
         angle = scan.angle_min + i * scan.angle_increment
         ahead, left = distance * math.cos(angle), distance * math.sin(angle)
         close = math.hypot(said[0] - ahead, said[1] - left) < 1e-3
-        where = f"({said[0]:.2f}, {said[1]:.2f}) m"
-        expect(close, f"Beam {i} measures {distance:.2f} m at {angle:.2f} rad; {where} is not where it ends.")
+        where = f"({said[0]:z.2f}, {said[1]:z.2f}) m"
+        expect(close, f"Beam {i} measures {distance:z.2f} m at {angle:z.2f} rad; {where} is not where it ends.")
     return "Each beam ends where the function says."
 
 
@@ -120,10 +120,10 @@ def mean_range(tried: Tried) -> str:
     wanted = sum(ranges) / len(ranges)
     heard = tried.heard_from("python mean_range.py", "/mean_range", "std_msgs/msg/Float32", count=5, after=8.0)
     said = heard[-1].data
-    came = f"On /mean_range came {said:.2f} m"
-    expect(abs(said - wanted) < 0.1, f"{came}; the mean of the valid ranges is {wanted:.2f} m.")
+    came = f"On /mean_range came {said:z.2f} m"
+    expect(abs(said - wanted) < 0.1, f"{came}; the mean of the valid ranges is {wanted:z.2f} m.")
     expect(len(heard) == 5, f"On /mean_range came {len(heard)} messages; one for each scan is wanted.")
-    return f"On /mean_range comes {said:.2f} m, again and again: one for each scan."
+    return f"On /mean_range comes {said:z.2f} m, again and again: one for each scan."
 
 
 @step("report", objective=6)

@@ -17,7 +17,7 @@ CLEAR = 0.35  # [m] around the lidar, in which there is only the robot
 def third_cart(tried: Tried) -> str:
     """A cart `third` stands 1 m ahead and 1 m to the right of the origin, and faces left."""
     pose = tried.poses("third")[-1]
-    seen = f"`third` is at x {pose.x:.2f} m, y {pose.y:.2f} m, and faces {pose.yaw:.2f} rad"
+    seen = f"`third` is at x {pose.x:z.2f} m, y {pose.y:z.2f} m, and faces {pose.yaw:z.2f} rad"
     try:
         expect(math.dist((pose.x, pose.y), (1.0, -1.0)) < 0.1, f"{seen}; x 1 m and y -1 m are wanted.")
         off = math.remainder(pose.yaw - math.pi / 2, math.tau)
@@ -69,11 +69,11 @@ def lidar(tried: Tried) -> str:
     rate = (len(scans) - 1) / (_seconds(scans[-1]) - _seconds(scans[0]))
     expect(frame == "lidar_link", f"The frame of a scan is `{frame}`; `lidar_link` is wanted, as in /tf.")
     expect(rays >= 180, f"A scan has {rays} rays; 180 are wanted.")
-    expect(around > 6.2, f"The rays span {around:.2f} rad; all around is wanted.")
-    expect(abs(rate - 10) < 1, f"There are {rate:.1f} scans a second; 10 are wanted.")
+    expect(around > 6.2, f"The rays span {around:z.2f} rad; all around is wanted.")
+    expect(abs(rate - 10) < 1, f"There are {rate:z.1f} scans a second; 10 are wanted.")
     near = sum(each < CLEAR for each in scans[-1].ranges)
     expect(near < 0.02 * rays, f"{near} of {rays} rays end within {CLEAR} m: the lidar sees its own robot.")
-    return f"{rate:.0f} scans a second with {rays} rays all around, in the frame `{frame}`."
+    return f"{rate:z.0f} scans a second with {rays} rays all around, in the frame `{frame}`."
 
 
 @step("joints", objective=3, form="joints.yaml")
@@ -104,7 +104,7 @@ def arguments(tried: Tried) -> str:
         pose = tried.poses("scout")[-1]
     finally:
         tried.stop("ros2 launch")
-    seen = f"With x:=2 the robot is at x {pose.x:.2f} m, y {pose.y:.2f} m"
+    seen = f"With x:=2 the robot is at x {pose.x:z.2f} m, y {pose.y:z.2f} m"
     expect(abs(pose.x - 2) < 0.1 and abs(pose.y) < 0.1, f"{seen}; x 2 m and y 0 m are wanted.")
     return f"{seen}, in the world of shapes.sdf."
 

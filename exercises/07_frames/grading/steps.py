@@ -28,9 +28,9 @@ def nearest(tried: Tried) -> str:
         distance, ray = min(hits)
         angle = each.angle_min + ray * each.angle_increment
         wanted = (distance * math.cos(angle), distance * math.sin(angle))
-        seen = f"The nearest hit of {where} is at ({wanted[0]:.2f}, {wanted[1]:.2f}) m"
-        expect(math.dist(said, wanted) < CLOSE, f"{seen}; nearest says ({said[0]:.2f}, {said[1]:.2f}).")
-    return f"The nearest hit of the scan is at ({wanted[0]:.2f}, {wanted[1]:.2f}) m in `{scan.header.frame_id}`."
+        seen = f"The nearest hit of {where} is at ({wanted[0]:z.2f}, {wanted[1]:z.2f}) m"
+        expect(math.dist(said, wanted) < CLOSE, f"{seen}; nearest says ({said[0]:z.2f}, {said[1]:z.2f}).")
+    return f"The nearest hit of the scan is at ({wanted[0]:z.2f}, {wanted[1]:z.2f}) m in `{scan.header.frame_id}`."
 
 
 @step("camera", objective=2)
@@ -41,7 +41,9 @@ def camera(tried: Tried) -> str:
     finally:
         tried.stop(MOUNT)
     place, yaw = transform.translation, _yaw(transform.rotation)
-    seen = f"`robot/camera` is at ({place.x:.2f}, {place.y:.2f}, {place.z:.2f}) m in `robot`, turned by {yaw:.2f} rad"
+    seen = (
+        f"`robot/camera` is at ({place.x:z.2f}, {place.y:z.2f}, {place.z:z.2f}) m in `robot`, turned by {yaw:z.2f} rad"
+    )
     expect(math.dist((place.x, place.y), (-0.1, 0.0)) < CLOSE, f"{seen}; 0.1 m behind the origin is wanted.")
     expect(abs(place.z - 0.25) < CLOSE, f"{seen}; 0.25 m above it is wanted.")
     expect(abs(yaw + math.pi / 2) < 0.01, f"{seen}; a quarter turn to the right, in radians, is wanted.")
@@ -83,8 +85,8 @@ def scan_to_odom(tried: Tried) -> str:
         got, want = said.transform.translation, wanted.transform.translation
         expect(
             math.dist((got.x, got.y, got.z), (want.x, want.y, want.z)) < CLOSE,
-            f"At {time:g} s the scanner was at ({want.x:.2f}, {want.y:.2f}) m; "
-            f"your transform puts it at ({got.x:.2f}, {got.y:.2f}).",
+            f"At {time:g} s the scanner was at ({want.x:z.2f}, {want.y:z.2f}) m; "
+            f"your transform puts it at ({got.x:z.2f}, {got.y:z.2f}).",
         )
     return "At two times, for two scanners, it is the transform of that time."
 
@@ -104,9 +106,9 @@ def point_in_odom(tried: Tried) -> str:
         place.y + 1.5 * math.sin(yaw) - 0.5 * math.cos(yaw),
         place.z,
     )
-    seen = f"It says ({got.x:.2f}, {got.y:.2f}, {got.z:.2f}) in `{frame}`"
+    seen = f"It says ({got.x:z.2f}, {got.y:z.2f}, {got.z:z.2f}) in `{frame}`"
     expect(frame == "odom", f"{seen}; the frame should be `odom`.")
-    there = f"({wanted[0]:.2f}, {wanted[1]:.2f}, {wanted[2]:.2f})"
+    there = f"({wanted[0]:z.2f}, {wanted[1]:z.2f}, {wanted[2]:z.2f})"
     expect(math.dist((got.x, got.y, got.z), wanted) < CLOSE, f"{seen}; the hit was at {there}.")
     said_time, time = (each.sec + each.nanosec / 1e9 for each in (stamp, scan.header.stamp))
     expect(stamp == scan.header.stamp, f"Its stamp is {said_time:g} s; the scan was taken at {time:g} s.")

@@ -48,7 +48,7 @@ def depth_at(tried: Tried) -> str:
         expect(
             isinstance(said, float | np.floating), f"It returns a {type(said).__name__}; a depth in metres is wanted."
         )
-        there = f"At row {row}, column {column} the depth is {wanted:.3f} m"
+        there = f"At row {row}, column {column} the depth is {wanted:z.3f} m"
         where = there if image is depth else f"{there} in a picture with {padded.step} bytes a row"
         expect(abs(said - wanted) < 1e-4, f"{where}; depth_at says {said:.3g}.")
     return f"{there}, also if each row has bytes to spare."
@@ -75,7 +75,7 @@ def red_columns(tried: Tried) -> str:
         )
         expect(len(got) == len(wanted), f"{seen}; each red post is one, and bright grey, blue and orange are none.")
         off = [abs(a - b) for a, b in zip(sorted(got), wanted, strict=True)]
-        words = ", ".join(f"{each:.0f}" for each in got)
+        words = ", ".join(f"{each:z.0f}" for each in got)
         expect(max(off, default=0.0) < ASIDE, f"The middles are at {wanted}; red_columns says {words}.")
     return "Two posts are two columns, one is one, and other colours are none."
 
@@ -92,13 +92,13 @@ def turned(tried: Tried) -> str:
         wanted = speed * (times[-1] - times[times <= STANDING + 0.2][-1])
         said = function(times, rates, STANDING)
         expect(isinstance(said, float | np.floating), f"It returns a {type(said).__name__}; an angle is wanted.")
-        seen = f"A robot with a bias of {bias:g} rad/s truly turned by {wanted:.2f} rad"
-        expect(abs(said - wanted) < 0.06, f"{seen}; turned says {said:.2f}.")
+        seen = f"A robot with a bias of {bias:g} rad/s truly turned by {wanted:z.2f} rad"
+        expect(abs(said - wanted) < 0.06, f"{seen}; turned says {said:z.2f}.")
     messages = tried.heard("/imu", "sensor_msgs/msg/Imu", 50, deadline=30.0)
     times = np.array([each.header.stamp.sec + each.header.stamp.nanosec / 1e9 for each in messages])
     still = float(function(times, np.array([each.angular_velocity.z for each in messages]), STANDING))
-    expect(abs(still) < 0.06, f"The real robot stands, and turned says that it has turned by {still:.2f} rad.")
-    return f"{seen}, and turned says {said:.2f}; the real robot stands, at {still:.2f} rad."
+    expect(abs(still) < 0.06, f"The real robot stands, and turned says that it has turned by {still:z.2f} rad.")
+    return f"{seen}, and turned says {said:z.2f}; the real robot stands, at {still:z.2f} rad."
 
 
 @step("in_pairs", objective=5)
@@ -120,7 +120,7 @@ def in_pairs(tried: Tried) -> str:
     kinds = (first[0].encoding, first[1].encoding)
     expect(kinds == ("rgb8", "32FC1"), f"The callback got {kinds[0]} first, then {kinds[1]}; colour comes first.")
     apart = max(abs(_seconds(a) - _seconds(b)) for a, b in pairs)
-    expect(apart < SAME, f"The two pictures of a pair are up to {apart:.1f} s apart; the same moment is wanted.")
+    expect(apart < SAME, f"The two pictures of a pair are up to {apart:z.1f} s apart; the same moment is wanted.")
     times = [_seconds(each) for each, _ in pairs]
     expect(len(times) == 5, f"{len(times)} of 5 pairs came: a depth picture comes 0.6 s after its colour picture.")
     expect(all(a < b for a, b in itertools.pairwise(times)), "A pair came twice.")

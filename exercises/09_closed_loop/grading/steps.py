@@ -34,7 +34,7 @@ def gain(tried: Tried) -> str:
     expect(value > 0, f"With a gain of {value:g} the robot never drives towards the place where it should be.")
     errors = response(value, delay=0)
     over, after = max(0.0, -float(errors.min())), abs(float(errors[round(1 / PERIOD)]))
-    seen = f"With a gain of {value:g} /s the error is {after:.2f} m after 1 s, and the overshoot {over:.2f} m"
+    seen = f"With a gain of {value:g} /s the error is {after:z.2f} m after 1 s, and the overshoot {over:z.2f} m"
     expect(over < 0.005, f"{seen}; no overshoot is wanted.")
     expect(after < 0.02, f"{seen}; less than 0.02 m is wanted.")
     return f"{seen}."
@@ -46,10 +46,10 @@ def late_gain(tried: Tried) -> str:
     value = float(tried.value("late_gain", (int, float)))
     errors = response(value, delay=4)
     over, after = max(0.0, -float(errors.min())), float(np.abs(errors[round(4 / PERIOD) :]).max())
-    seen = f"Four scans late, a gain of {value:g} /s overshoots by {over:.2f} m"
+    seen = f"Four scans late, a gain of {value:g} /s overshoots by {over:z.2f} m"
     expect(over <= 0.05, f"{seen}; at most 0.05 m is wanted.")
-    expect(after <= 0.1, f"{seen}, and is {after:.2f} m off after 4 s; at most 0.1 m is wanted.")
-    return f"{seen}, and is at most {after:.2f} m off after 4 s."
+    expect(after <= 0.1, f"{seen}, and is {after:z.2f} m off after 4 s; at most 0.1 m is wanted.")
+    return f"{seen}, and is at most {after:z.2f} m off after 4 s."
 
 
 @step("calm", objective=4, form=COMMANDS, limit=120.0)
@@ -61,8 +61,8 @@ def calm(tried: Tried) -> str:
     changes = sum(a * b < 0 for a, b in itertools.pairwise(fast))
     off = max(abs(each.x - each.y) for each in seen[-8:])
     expect(changes <= 1, f"The keeper changes between forward and back {changes} times in 4.5 s: it still shakes.")
-    expect(off < 0.15, f"After 4.5 s the keeper is still {off:.2f} m away from its distance.")
-    return f"The keeper is within {off:.2f} m of its distance after 4.5 s, and does not shake."
+    expect(off < 0.15, f"After 4.5 s the keeper is still {off:z.2f} m away from its distance.")
+    return f"The keeper is within {off:z.2f} m of its distance after 4.5 s, and does not shake."
 
 
 @step("parameters", objective=4, form="parameters.py")
@@ -108,10 +108,10 @@ def nearest_beside(tried: Tried) -> str:
             near = abs(said[0] - wanted[0]) < 1e-3 and abs(said[1] - wanted[1]) < 0.02
             expect(
                 near,
-                f"On the {side} {where} the nearest point is {wanted[0]:.2f} m away at {wanted[1]:.2f} rad; "
-                f"nearest_beside says {said[0]:.2f} m, {said[1]:.2f} rad.",
+                f"On the {side} {where} the nearest point is {wanted[0]:z.2f} m away at {wanted[1]:z.2f} rad; "
+                f"nearest_beside says {said[0]:z.2f} m, {said[1]:z.2f} rad.",
             )
-    return f"It finds the nearest point on both sides; on the right it is {wanted[0]:.2f} m away."
+    return f"It finds the nearest point on both sides; on the right it is {wanted[0]:z.2f} m away."
 
 
 @step("turning", objective=1)
@@ -122,12 +122,12 @@ def turning(tried: Tried) -> str:
         begin = f"From {distance:g} m, heading {heading:g} rad towards the wall,"
         distances, rates = _drive(function, distance, heading)
         expect(
-            np.abs(rates).max() <= MOST + 1e-6, f"{begin} it turns at {_largest(rates):.1f} rad/s; the limit is 1.5."
+            np.abs(rates).max() <= MOST + 1e-6, f"{begin} it turns at {_largest(rates):z.1f} rad/s; the limit is 1.5."
         )
         expect(distances.min() > 0.15, f"{begin} the robot drives into the wall.")
         expect(distances.max() < 2.5, f"{begin} the robot drives away from the wall.")
         off = float(np.abs(distances[-30:] - WANTED).max())
-        expect(off < 0.05, f"{begin} the distance is still up to {off:.2f} m wrong after 20 s.")
+        expect(off < 0.05, f"{begin} the distance is still up to {off:z.2f} m wrong after 20 s.")
     return f"From four starts the robot comes to {WANTED:g} m from the wall and stays there."
 
 

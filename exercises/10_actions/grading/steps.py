@@ -95,9 +95,9 @@ def two_at_once(tried: Tried) -> str:
     answer = tried.stop("ros2 service call")
     tried.stop("python ahead.py")
     tried.command(STOP)
-    expect("response" in answer, f"The robot drove {gone:.1f} m, and no answer came: on_odometry waits for on_ahead.")
-    expect(NEAR < gone < FAR, f"The service has answered, and the robot drove {gone:.2f} m; 0.3 m is wanted.")
-    return f"The robot drove {gone:.2f} m and the service answered: odometry came while it waited."
+    expect("response" in answer, f"The robot drove {gone:z.1f} m, and no answer came: on_odometry waits for on_ahead.")
+    expect(NEAR < gone < FAR, f"The service has answered, and the robot drove {gone:z.2f} m; 0.3 m is wanted.")
+    return f"The robot drove {gone:z.2f} m and the service answered: odometry came while it waited."
 
 
 @step("angle_to", objective=4)
@@ -110,15 +110,15 @@ def angle_to(tried: Tried) -> str:
         wanted = math.remainder(math.atan2(north - y, east - x) - heading, math.tau)
         where = f"From ({x}, {y}) with the heading {heading} to ({east}, {north})"
         off = abs(math.remainder(said - wanted, math.tau))
-        expect(off < 1e-3, f"{where} it says {said:.2f} rad; {wanted:.2f} is wanted.")
-        expect(abs(said) < 3.15, f"{where} it says {said:.2f} rad; an angle between -pi and pi is wanted.")
+        expect(off < 1e-3, f"{where} it says {said:z.2f} rad; {wanted:z.2f} is wanted.")
+        expect(abs(said) < 3.15, f"{where} it says {said:z.2f} rad; an angle between -pi and pi is wanted.")
     tried.place("robot", 0.0, 0.0, -0.8)
     begin = tried.poses("robot")[-1]
     angle = function(begin.x, begin.y, begin.yaw, 1.0, 2.0)
-    goal = f"'{{angle: {angle:.3f}}}'"
+    goal = f"'{{angle: {angle:z.3f}}}'"
     tried.command(f"timeout 15 ros2 action send_goal /turn turn_interfaces/action/Turn {goal} || true")
     end = tried.poses("robot")[-1]
     faces = math.atan2(2.0 - end.y, 1.0 - end.x)
     off = abs(math.remainder(end.yaw - faces, math.tau))
-    expect(off < TURNED, f"After the turn the robot looks {off:.2f} rad past the place. Does turn_server.py run?")
-    return f"The robot turned by {angle:.2f} rad, and faces the place."
+    expect(off < TURNED, f"After the turn the robot looks {off:z.2f} rad past the place. Does turn_server.py run?")
+    return f"The robot turned by {angle:z.2f} rad, and faces the place."

@@ -43,7 +43,7 @@ def third(tried: Tried) -> str:
     """robot3 stands 1.2 m to the left of robot2."""
     try:
         at = tried.poses("robot3")[-1]
-        where = f"robot3 is at x = {at.x:.2f} m, y = {at.y:.2f} m"
+        where = f"robot3 is at x = {at.x:z.2f} m, y = {at.y:z.2f} m"
         right = abs(at.x - PLACES["robot3"][0]) < OFF and abs(at.y - PLACES["robot3"][1]) < OFF
         expect(right, f"{where}; 1.2 m to the left of robot2 is wanted. It is taken out of the world again.")
     except NotYet:
@@ -69,11 +69,11 @@ def own_names(tried: Tried) -> str:
         speed = motion_of(tried.poses("robot2", 1.0)).speed
         says = tried.heard("/robot2/odom", ODOMETRY)[0].twist.twist.linear.x
         expect(abs(speed) > 0.1, "0.2 m/s on /robot2/cmd_vel, and robot2 does not drive: Gazebo has another topic.")
-        expect(abs(says - speed) < 0.1, f"robot2 drives at {speed:.1f} m/s, and /robot2/odom says {says:.1f} m/s.")
+        expect(abs(says - speed) < 0.1, f"robot2 drives at {speed:z.1f} m/s, and /robot2/odom says {says:z.1f} m/s.")
     finally:
         for name in ("robot1", "robot2"):
             tried.command(f"gz topic -t /model/{name}/cmd_vel -m gz.msgs.Twist -p ''")
-    return f"0.2 m/s on /robot2/cmd_vel, and robot2 drives at {speed:.1f} m/s, as /robot2/odom says."
+    return f"0.2 m/s on /robot2/cmd_vel, and robot2 drives at {speed:z.1f} m/s, as /robot2/odom says."
 
 
 def _say(topic: str, speed: float) -> str:
@@ -94,8 +94,8 @@ def for_robot1(tried: Tried) -> str:
         rate = motion_of(tried.poses("robot1", 1.0)).rate
         if rate > 0.3:
             break
-    expect(rate > 0.3, f"robot1 turns at {rate:.1f} rad/s; 0.5 is wanted.")
-    return f"The node is in the namespace /robot1, and robot1 turns at {rate:.1f} rad/s."
+    expect(rate > 0.3, f"robot1 turns at {rate:z.1f} rad/s; 0.5 is wanted.")
+    return f"The node is in the namespace /robot1, and robot1 turns at {rate:z.1f} rad/s."
 
 
 @step("any_robot", objective=3, form="gap.py")
@@ -113,7 +113,7 @@ def any_robot(tried: Tried) -> str:
             said = tried.heard(f"/{own}/gap", FLOAT)[0].data
             expect(
                 abs(said - wanted) < 0.01,
-                f"/{own}/odom and /{front}/odom are {wanted:.2f} m apart, with the gap; it says {said:.2f} m.",
+                f"/{own}/odom and /{front}/odom are {wanted:z.2f} m apart, with the gap; it says {said:z.2f} m.",
             )
     finally:
         for command in ("python gap.py", "ros2 topic pub"):

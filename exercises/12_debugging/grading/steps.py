@@ -82,9 +82,9 @@ def repaired_qos(tried: Tried) -> str:
     nearest = min(r for r in scan.ranges if scan.range_min < r < scan.range_max)
     expect(
         abs(free - nearest) < 0.3,
-        f"The node says {free:.1f} m, and the nearest point of the scan is {nearest:.1f} m away.",
+        f"The node says {free:z.1f} m, and the nearest point of the scan is {nearest:z.1f} m away.",
     )
-    return f"The node gets scans, and publishes {free:.1f} m."
+    return f"The node gets scans, and publishes {free:z.1f} m."
 
 
 @step("culprit", objective=2)
@@ -112,7 +112,7 @@ def three_topics(tried: Tried) -> str:
     tried.place("robot", 0.0, 0.0)
     speed = motion_of(tried.poses("robot", 1.0)[10:]).speed
     expect(speed > 0.05, f"{NODE} commands 0.1 m/s, and the robot does not drive: the commands go elsewhere in Gazebo.")
-    return f"Clock and scans come, commands go one way, and the robot drives at {speed:.1f} m/s."
+    return f"Clock and scans come, commands go one way, and the robot drives at {speed:z.1f} m/s."
 
 
 @step("lidar_behind", objective=2)
@@ -127,7 +127,7 @@ def lidar_behind(tried: Tried) -> str:
         f"The transform is between {parent} and {child}; base_link and lidar_link are wanted.",
     )
     x = found[0]["transform"]["translation"]["x"] * (1 if parent == "base_link" else -1)
-    where = f"The lidar is {abs(x):.2f} m {'behind' if x < 0 else 'in front of'} base_link"
+    where = f"The lidar is {abs(x):z.2f} m {'behind' if x < 0 else 'in front of'} base_link"
     expect(abs(x + 0.2) < 0.005, f"{where}; 0.2 m behind is wanted.")
     return f"{where}, and {parent} is the parent."
 

@@ -37,8 +37,8 @@ def hit_points(tried: Tried) -> str:
     count = len(said[0])
     expect(count == hit.sum(), f"It returns {count} points; {hit.sum()} of {len(ranges)} rays hit something.")
     points = np.array(said, dtype=float)
-    there = f"the first hit is at ({points[0, 0]:.2f}, {points[1, 0]:.2f}) m"
-    right = f"({wanted[0, 0]:.2f}, {wanted[1, 0]:.2f})"
+    there = f"the first hit is at ({points[0, 0]:z.2f}, {points[1, 0]:z.2f}) m"
+    right = f"({wanted[0, 0]:z.2f}, {wanted[1, 0]:z.2f})"
     expect(np.allclose(points, wanted, atol=0.01), f"For a scan of this world {there}; {right} is wanted.")
     return f"{count} rays of a scan of this world have hit something, and {there}."
 
@@ -81,7 +81,7 @@ def index_of(tried: Tried) -> str:
         for x, y in ((left + 0.03, bottom + 0.03), (1.27, -0.56), (-2.15, 1.98)):
             column, row = math.floor((x - left) / size), math.floor((y - bottom) / size)
             said, wanted = function(x, y, info), row * width + column
-            where = f"({x:.2f}, {y:.2f}) m in a map of {width} x {height} cells of {size} m"
+            where = f"({x:z.2f}, {y:z.2f}) m in a map of {width} x {height} cells of {size} m"
             expect(said == wanted, f"For {where} it says {said}; {wanted} is wanted, row {row} and column {column}.")
     return "In two maps with different sizes, each point has its place in `data`."
 
