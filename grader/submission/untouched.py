@@ -13,7 +13,7 @@ from gz_course.grader.submission.submission import Submission
 
 PART = re.compile(r"^\s*#\s*(?:Your part|Part 1): *(.*)$")
 COMMENT = re.compile(r"^\s*#\s?(.*)$")
-MOST_WORDS = 16  # of the part that is quoted
+MOST_WORDS = 19  # of the part that is quoted
 
 
 def untouched(exercise: Exercise, submission: Submission) -> str:
@@ -42,6 +42,17 @@ def _first_part(content: bytes) -> tuple[int, str] | None:
                 if (more := COMMENT.match(further)) is None:
                     break
                 words += more[1].split()
-            text = " ".join(words[:MOST_WORDS]).rstrip(".,;:")
-            return number + 1, f"{text}{' ...' if len(words) > MOST_WORDS else '.'}"
+            return number + 1, _beginning(words)
     return None
+
+
+def _beginning(words: list[str]) -> str:
+    """Return so many words at most, up to the end of a clause where there is one."""
+    kept = words[:MOST_WORDS]
+    if len(words) > MOST_WORDS:
+        ends = [[n for n, word in enumerate(kept, 1) if word.endswith(marks)] for marks in ((".", ";"), (",",))]
+        end = next((places[-1] for places in ends if places), None)
+        if end is None:
+            return " ".join(kept) + " ..."
+        kept = kept[:end]
+    return " ".join(kept).rstrip(".,;:") + "."

@@ -21,6 +21,7 @@ def test_every_starter_is_told_where_to_begin(root):
         said = untouched(exercise, take_in(exercise, exercise.folder))
         assert said.startswith(("Begin", exercise.file.rpartition("/")[2], "follower")), name
         assert len(said.split()) <= 30, said
+        assert said.endswith(".") and not said.endswith("..."), said
 
 
 def test_the_part_is_named_with_its_line(exercise):
