@@ -47,11 +47,13 @@ class Diagnostics:
     """Collects the warnings of one world; each distinct sentence is logged once and kept in `warnings`.
 
     With `strict` nothing is logged during loading: `refuse`, called at its end, raises one error with all warnings.
-    Later warnings are logged at once, except within `refusing`. A `doubt` never causes an error. With `quiet` nothing
-    is logged at all. With `lenient`, as in Gazebo, a plugin with a wrong parameter does not refuse the world.
+    Later warnings are logged at once, except within `refusing`. A `doubt` never causes an error. What Gazebo does
+    otherwise is no fault of a model: it is logged, and kept in `differences`. With `quiet` nothing is logged at all.
+    With `lenient`, as in Gazebo, a plugin with a wrong parameter does not refuse the world.
     """
 
     warnings: list[str] = field(default_factory=list)
+    differences: list[str] = field(default_factory=list)
     strict: bool = False
     quiet: bool = False
     lenient: bool = False
@@ -65,6 +67,14 @@ class Diagnostics:
     def doubt(self, where: str, sentence: str) -> None:
         """Report something that is valid but probably a mistake."""
         self._report(where, sentence, doubt=True)
+
+    def differs(self, where: str, sentence: str) -> None:
+        """Report something that is valid, and that Gazebo does otherwise."""
+        text = f"{where}: {one_line(sentence)}" if where else one_line(sentence)
+        if text not in self.differences and len(self.differences) < _MOST_WARNINGS:
+            self.differences.append(text)
+            if not self.quiet:
+                LOG.warning("%s", text)
 
     def _report(self, where: str, sentence: str, doubt: bool) -> None:
         text = f"{where}: {one_line(sentence)}" if where else one_line(sentence)

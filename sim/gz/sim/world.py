@@ -18,10 +18,11 @@ import mujoco
 
 from gz_course.sim.gz.sim.editing.editor import Editor
 from gz_course.sim.gz.sim.entities import Entities
-from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SimError
-from gz_course.sim.gz.sim.physics import integrator, overlaps, welds
+from gz_course.sim.gz.sim.errors import Diagnostics, SimError
+from gz_course.sim.gz.sim.physics import integrator, overlaps, sleeping, welds
 from gz_course.sim.gz.sim.physics.builder import build_spec
-from gz_course.sim.gz.sim.physics.compiler import compile_world
+from gz_course.sim.gz.sim.physics.compiler import compile_world, hear_warnings
+from gz_course.sim.gz.sim.physics.fast_bodies import FastBodies
 from gz_course.sim.gz.sim.physics.instability import UNSTABLE, why_unstable
 from gz_course.sim.gz.sim.physics.joint_limits import JointLimits
 from gz_course.sim.gz.sim.physics.state import copy_state
@@ -192,7 +193,7 @@ class World:
         """
         spec = build_spec(self.description, self.systems.servos, self.diagnostics)
         welds.add_welds(spec, self.description, self.systems.welds)
-        mujoco.set_mju_user_warning(lambda text: LOG.warning("physics: %s", text))
+        hear_warnings()
         model, data = self._compile(spec, before)
         found = overlaps.find(model, data)
         if found:
@@ -203,6 +204,7 @@ class World:
         self._warned = data.warning.number  # a view
         self._overlaps = overlaps.Overlaps(model, found)
         self._limits = JointLimits(model, data, self.description.models, self.systems.servos)
+        self._fast = FastBodies(model, data)
         self.truth.bind(model, data)
 
     def _compile(
@@ -210,6 +212,7 @@ class World:
     ) -> tuple[mujoco.MjModel, mujoco.MjData]:
         model, data = compile_world(spec, self.description, self.diagnostics)
         integrator.choose(model)
+        sleeping.allow(model, data, self.description)
         mujoco.mj_forward(model, data)
         if before is not None:
             copy_state(*before, model, data)
@@ -285,6 +288,7 @@ class World:
             pre_updates, in_steps, post_updates = systems.pre_updates, systems.in_steps, systems.post_updates
             samples = systems.samples
             advance = self._limits.advance if self._limits.active else mujoco.mj_step
+            watch = self._fast.watch if self._fast.active else None
             origin_ns, step_ns = self._origin_ns, self.description.step_size_ns
             requests.enter_step()
             try:
@@ -292,6 +296,8 @@ class World:
                     info.sim_time_ns = origin_ns + self.iterations * step_ns
                     alone, rested = (0 if colliding.active else systems.steps_at_rest(info, n - done)), 0
                     while rested < alone and not (rested and waiting):
+                        if watch is not None:
+                            watch()
                         advance(model, data)
                         for sample in samples:
                             sample()
@@ -307,6 +313,8 @@ class World:
                     info.sim_time_ns = origin_ns + iterations * step_ns
                     for pre_update in pre_updates:
                         pre_update(info)
+                    if watch is not None:
+                        watch()
                     if in_steps:
                         self._limits.advance(model, data, in_step)
                     else:

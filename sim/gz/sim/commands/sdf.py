@@ -2,8 +2,9 @@
 
 `-k` reads a world or model as `gz sim` would and prints `Valid.`, or the first fault (exit code 255, as in Gazebo);
 warnings go to stderr. `-p` prints it as SDF: a URDF or xacro file is converted, and includes are replaced by what they
-name, unless `-i` keeps them. `--inertial-stats` prints mass, centre of mass and inertia of a model. `-g` prints the
-graph of its frames: which poses are relative to which (`pose`), or which frames are attached to which (`frame`).
+name, unless `-i` keeps them. `-d` prints all elements and attributes of SDF, without their texts. `--inertial-stats`
+prints mass, centre of mass and inertia of a model. `-g` prints the graph of its frames: which poses are relative to
+which (`pose`), or which frames are attached to which (`frame`).
 
 Source: https://github.com/gazebosim/sdformat/blob/sdf14/src/cmd/cmdsdformat.rb.in
 """
@@ -24,6 +25,7 @@ from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, read_root, sdf_v
 from gz_course.sim.gz.sim.sdf.printing import Numbers, inertia_lines, state_inertia
 from gz_course.sim.gz.sim.sdf.reader import read_model, read_world
 from gz_course.sim.gz.sim.sdf.resources import FILES, read_text
+from gz_course.sim.gz.sim.sdf.vocabulary import described
 from gz_course.sim.gz.sim.sdf.writer import to_xml
 from gz_course.sim.gz.sim.sdf_generator import absolute_copy
 
@@ -51,7 +53,8 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument(
         "-g", "--graph", nargs=2, metavar=("{pose,frame}", "FILE"), help="print the graph of frames in the DOT language"
     )
-    parser.commands("--check", "--print", "--inertial-stats", "--graph")
+    parser.add_argument("-d", "--describe", action="store_true", help="print the elements and attributes of SDF")
+    parser.commands("--check", "--print", "--inertial-stats", "--graph", "--describe")
     for option in (*_OF_PRINT, "--expand-auto-inertials"):
         parser.needs(option, "--print")
     parser.needs("--snap-tolerance", "--snap-to-degrees")
@@ -61,6 +64,9 @@ def run(values: argparse.Namespace) -> int:
     """Run `gz sdf`; return the exit code. Raises ValueError for angles that cannot be snapped to."""
     if values.snap_to_degrees and not values.snap_tolerance < values.snap_to_degrees <= 360:
         raise ValueError("--snap-to-degrees must be above its tolerance and at most 360")
+    if values.describe:
+        print("\n".join(described()))
+        return 0
     kind, graphed = values.graph or ("", "")
     if kind and kind not in KINDS:
         raise ValueError(f"--graph takes {' or '.join(KINDS)} and a file, got '{kind}'{did_you_mean(kind, KINDS)}")

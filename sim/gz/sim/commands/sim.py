@@ -2,7 +2,8 @@
 
 It loads the world, serves it on gz-transport (`gz.sim.server`) and runs it until SIGINT, SIGTERM or the last iteration.
 Beside it a view opens in the browser (`gz_course.sim.gz.view`), unless -s is given; -g opens one of a world that runs
-already. The view is a process of its own: whatever happens to it, the simulation goes on.
+already. Without a FILE a page opens first, on which a world is chosen. The view is a process of its own: whatever
+happens to it, the simulation goes on.
 
 Exit codes: 0 normal end, 1 the world cannot be run, 2 no world was named, 3 internal error of the simulator; usage
 errors have the codes of `gz.command_line`.
@@ -23,13 +24,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gz_course.sim.error_text import named
-from gz_course.sim.gz.command_line import Parser, Version, integer, positive_number, whole_number
+from gz_course.sim.gz.command_line import Parser, integer, positive_number, whole_number
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.sdf.description import Plugin
     from gz_course.sim.gz.sim.world import World
     from gz_course.sim.gz.transport import Node
     from gz_course.sim.gz.view import View
+    from gz_course.sim.gz.view.start_page import StartPage
 
 _LEVELS = {0: logging.CRITICAL + 1, 1: logging.WARNING, 2: logging.WARNING, 3: logging.INFO, 4: logging.DEBUG}
 _PREFIXES = {logging.WARNING: "[Wrn]", logging.INFO: "[Msg]", logging.DEBUG: "[Dbg]"}
@@ -89,7 +91,6 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument(
         "--playback", metavar="FOLDER", help="show a recording of --record; its end pauses, and nothing is simulated"
     )
-    parser.add_argument("--versions", action=Version, help="the same as --version")
 
 
 def _set_up_logging(verbose: int) -> None:
@@ -118,7 +119,7 @@ def run(values: argparse.Namespace) -> int:
         refused = "-g shows a world that runs already, so it takes no file; leave out -g to start one"
     elif values.playback is not None and (values.file is not None or _recorder(values)):
         refused = "--playback shows a recorded world, so it takes neither a file nor --record; leave out one of them"
-    elif values.file is None and values.playback is None:
+    elif values.file is None and values.playback is None and (values.server or not _may_ask()):
         refused = "which world? Name a file or a built-in world, for example: gz sim -r lidar_room.sdf"
     if refused:
         sys.stderr.write(f"gz sim: {refused}\n")
@@ -127,11 +128,38 @@ def run(values: argparse.Namespace) -> int:
         if getattr(values, option.removeprefix("--").replace("-", "_")):
             logging.getLogger("gz.sim").warning("%s changes nothing here", option)
     try:
+        if values.file is None and values.playback is None:
+            return _choose(values, stop)
         return _simulate(values, stop)
     except Exception as error:  # an internal error of the simulator
         logging.getLogger("gz.sim").debug("%s", traceback.format_exc())
         sys.stderr.write(f"gz sim: the simulator itself failed ({named(error)}); -v 4 tells where\n")
         return 3
+
+
+def _may_ask() -> bool:
+    """Return whether a world may be chosen in a browser; a graded run has none."""
+    from gz_course.sim.gz.sim.server import Server
+
+    return Server.offers_view
+
+
+def _choose(values: argparse.Namespace, stop: threading.Event) -> int:
+    """Have a world chosen in the browser, and simulate it."""
+    from gz_course.sim.gz.sim.sdf.resources import known_worlds
+    from gz_course.sim.gz.view.start_page import StartPage
+
+    try:
+        page = StartPage(known_worlds(), bind=values.bind, port=values.http_port)
+    except OSError as error:
+        sys.stderr.write(f"gz sim: the page to choose a world cannot be served: {error.strerror or error}\n")
+        return 1
+    with page:
+        sys.stderr.write(f"gz sim: choose a world at {page.address}\n")
+        page.open_browser()
+        values.file = page.wait(stop)
+        values.http_port = 0  # it is taken by the page
+        return _simulate(values, stop, page) if values.file else 0
 
 
 def _view_only(values: argparse.Namespace, stop: threading.Event) -> int:
@@ -152,8 +180,11 @@ def _view_only(values: argparse.Namespace, stop: threading.Event) -> int:
     return 1 if view.error else 0
 
 
-def _open_view(values: argparse.Namespace, world: str) -> View:
-    """Open a view beside the simulator, and say where; it comes while the world runs already."""
+def _open_view(values: argparse.Namespace, world: str, page: StartPage | None) -> View:
+    """Open a view beside the simulator, and say where; it comes while the world runs already.
+
+    The page on which the world was chosen goes there itself.
+    """
     from gz_course.sim.gz.view import View
 
     def say(sentence: str) -> None:
@@ -163,7 +194,10 @@ def _open_view(values: argparse.Namespace, world: str) -> View:
     def ready(view: View) -> None:
         if view.address:
             say(f"see world '{world}' at {view.address}")
-            view.open_browser()
+            if page is not None:
+                page.lead_to(view.address)
+            else:
+                view.open_browser()
 
     def ended(view: View) -> None:
         say(f"there is no view ({view.error}); the simulator runs on, and gz sim -g opens another view")
@@ -233,7 +267,7 @@ def _look_for_others(node: Node) -> None:
         )
 
 
-def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
+def _simulate(values: argparse.Namespace, stop: threading.Event, page: StartPage | None = None) -> int:
     # Imported here, because MuJoCo and the transport would delay help and usage errors.
     from gz_course.sim.gz.sim.errors import LOG, SimError
     from gz_course.sim.gz.sim.server import Server
@@ -278,7 +312,7 @@ def _simulate(values: argparse.Namespace, stop: threading.Event) -> int:
                 how = "start it with -r, or press Play in the view" if seen else "start it with -r to let time run"
                 LOG.warning("world '%s' is paused; %s", world.name, how)
             if seen:
-                views.enter_context(_open_view(values, world.name))
+                views.enter_context(_open_view(values, world.name, page))
             elif server.offers_view and values.verbose > 0:
                 where = f"partition '{node.options.partition}'"
                 sys.stderr.write(f"gz sim: world '{world.name}' is served in {where}; gz sim -g shows it\n")

@@ -33,6 +33,7 @@ from gz_course.sim.gz.sim.physics.joints import (
 from gz_course.sim.gz.sim.physics.lights import add_light
 from gz_course.sim.gz.sim.physics.materials import add_sky
 from gz_course.sim.gz.sim.physics.servos import WHEEL, JointServo, add_servo
+from gz_course.sim.gz.sim.physics.static_parts import StaticParts
 from gz_course.sim.gz.sim.pose import Pose, multiply
 from gz_course.sim.gz.sim.sdf.description import Joint, Link, Model, WorldDescription
 
@@ -101,6 +102,7 @@ class _Builder:
         self._links = link_map(world.models)
         self._bodies: dict[str, mujoco.MjsBody] = {}
         self._tree = _Tree()
+        self._static_parts = StaticParts(self._spec, world)
 
     def build(self) -> mujoco.MjSpec:
         spec, world = self._spec, self._world
@@ -119,6 +121,7 @@ class _Builder:
             add_light(spec.worldbody, light.name, Pose(), light)
         self._choose_tree()
         self._add_bodies()
+        self._static_parts.finish()
         for edge in self._tree.loops:
             self._close(edge)
         for edge, found in self._tree.geared:
@@ -208,7 +211,7 @@ class _Builder:
 
     def _add_link(self, name: str, model: Model, link: Link) -> None:
         if model.static:
-            self._add_parts(self._spec.worldbody, model, link, model.pose * link.pose, wheel=None)
+            self._add_parts(self._static_parts, model, link, model.pose * link.pose)
             return
         edge = self._tree.carried.get(name)
         pose = model.pose * link.pose
@@ -237,7 +240,12 @@ class _Builder:
             body.add_freejoint(name=name + "#free")
         body.gravcomp = 0.0 if link.gravity else 1.0
         self._set_inertia(body, link)
-        self._add_parts(body, model, link, Pose(), wheel=wheel)
+        drags = (edge is None or edge.joint.kind == "fixed") and self._is_driven(model)
+        self._add_parts(body, model, link, Pose(), wheel=wheel, drags=drags)
+
+    def _is_driven(self, model: Model) -> bool:
+        """Tell whether a model has driven wheels."""
+        return any(servo.kind == WHEEL for servo in self._servos.get(model.name, []))
 
     @staticmethod
     def _set_inertia(body: mujoco.MjsBody, link: Link) -> None:
@@ -273,7 +281,7 @@ class _Builder:
         add_mimics(self._spec, model, built, self._step)
         tell_what_stands(model, self._servos.get(model.name, []), self._diagnostics)
         for servo in self._servos.get(model.name, []):
-            add_servo(self._spec, model, servo, scoped(model, servo.joint))
+            add_servo(self._spec, model, servo, scoped(model, servo.joint), soft=self._bounces)
         touching = [link for link in model.links if link.collisions]
         if len(touching) > MOST_TOUCHING:
             text = f"model '{model.name}' has {len(touching)} links with collisions, more than {MOST_TOUCHING}"
@@ -294,7 +302,16 @@ class _Builder:
             link = self._tree.carried[link].parent
         return link.rpartition("::")[0]
 
-    def _add_parts(self, body: mujoco.MjsBody, model: Model, link: Link, base: Pose, *, wheel: Wheel | None) -> None:
+    def _add_parts(
+        self,
+        body: mujoco.MjsBody | StaticParts,
+        model: Model,
+        link: Link,
+        base: Pose,
+        *,
+        wheel: Wheel | None = None,
+        drags: bool = False,
+    ) -> None:
         name = scoped(model, link.name)
         moving = not model.static
         for collision in link.collisions:
@@ -306,6 +323,7 @@ class _Builder:
                 model,
                 wheel=wheel,
                 moving=moving and not link.static,
+                drags=drags,
             )
         for visual in link.visuals:
             self._geoms.add_visual(body, f"{name}::{visual.name}", base, visual, moving=moving and not link.static)

@@ -11,12 +11,23 @@ import warnings
 
 import mujoco
 
-from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
+from gz_course.sim.gz.sim.errors import LOG, Diagnostics, SdfError
 from gz_course.sim.gz.sim.sdf.description import Collision, Light, Model, Sensor, Visual, WorldDescription
 from gz_course.sim.gz.sim.sdf.element import Element
 
 _NAMED = re.compile(r"Element name '([^']*)'")
+EMPTY_PREFIX = "Attaching a spec with an empty prefix"
 _TAIL = re.compile(r"\s*Element (name|id).*", re.DOTALL)
+
+
+def hear_warnings() -> None:
+    """Let MuJoCo's warnings go to the log, but the one about names of parts, which are complete (`static_parts`)."""
+    mujoco.set_mju_user_warning(_warned)
+
+
+def _warned(text: str) -> None:
+    if EMPTY_PREFIX not in text:
+        LOG.warning("physics: %s", text)
 
 
 def compile_world(
@@ -32,7 +43,8 @@ def compile_world(
             raise _refusal(world, error) from None
     for warning in said:
         text = " ".join(str(warning.message).split()).partition(" Time =")[0]
-        diagnostics.warn(world.element.where, f"the physics engine warns: {text}")
+        if not text.startswith(EMPTY_PREFIX):
+            diagnostics.warn(world.element.where, f"the physics engine warns: {text}")
     return model, data
 
 

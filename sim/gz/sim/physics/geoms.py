@@ -16,6 +16,7 @@ from gz_course.sim.gz.sim.errors import Diagnostics
 from gz_course.sim.gz.sim.physics import recipe
 from gz_course.sim.gz.sim.physics.contact_pairs import Shape
 from gz_course.sim.gz.sim.physics.materials import Materials
+from gz_course.sim.gz.sim.physics.static_parts import StaticParts
 from gz_course.sim.gz.sim.pose import Pose, Vector, quaternion_between, rotate
 from gz_course.sim.gz.sim.sdf.description import (
     Collision,
@@ -27,6 +28,7 @@ from gz_course.sim.gz.sim.sdf.description import (
     WorldDescription,
 )
 from gz_course.sim.gz.sim.sdf.materials import GREY
+from gz_course.sim.gz.sim.sdf.tyres import ROUND, Tyre, read_tyre
 
 COLLISION_GROUP = 3
 VISUAL_GROUP = 1
@@ -38,6 +40,8 @@ _UNDERGROUND = 1.0
 """Thickness [m] of the ground below the lowest point of a heightmap."""
 _TYRE = 0.002
 """Length of the capsule of a tyre that skids, relative to its diameter."""
+_LENS = 0.1
+"""Least thickness of the ellipsoid of a wheel, relative to its diameter; of a thinner one contacts are inexact."""
 _PLATE = 0.001
 """Half the thickness [m] of a plane that moves."""
 
@@ -96,7 +100,7 @@ class Geoms:
 
     def add_collision(
         self,
-        body: mujoco.MjsBody,
+        body: mujoco.MjsBody | StaticParts,
         name: str,
         base: Pose,
         part: Collision,
@@ -104,16 +108,18 @@ class Geoms:
         *,
         wheel: Wheel | None,
         moving: bool,
+        drags: bool = False,
     ) -> None:
         """Add a collision of a model; `base` is the pose of its link in the body.
 
-        The cylinder of a driven `wheel` becomes an ellipsoid. If it skids, cylinder and sphere become a short capsule
-        along the axle (`contact_pairs`).
+        The cylinder of a driven `wheel` becomes an ellipsoid. If it is a tyre with directions, cylinder and sphere
+        become a short capsule along the axle (`contact_pairs`). A sphere that is fixed to a robot with driven wheels
+        `drags` on the ground.
         """
         geometry = part.geometry
         pose = base * part.pose
-        skids = wheel is not None and wheel.skids and self._can_skid(part)
-        if wheel is not None and skids:
+        tyre = self._tyre(part, wheel)
+        if wheel is not None and tyre is not None:
             if geometry.kind == "sphere":
                 axle = rotate(pose.inverse().quaternion, rotate(base.quaternion, wheel.axle))
                 pose = pose * Pose(quaternion=quaternion_between((0.0, 0.0, 1.0), axle))
@@ -122,7 +128,8 @@ class Geoms:
         elif wheel is not None and geometry.kind == "cylinder":
             # An ellipsoid has one contact point, in the middle plane of the wheel, so that the wheel separation is
             # exact.
-            geometry = Geometry("ellipsoid", geometry.size)
+            x, y, width = geometry.size
+            geometry = Geometry("ellipsoid", (x, y, max(width, _LENS * x)))
         if geometry.kind == "plane" and moving:
             text = f"a plane cannot move; collision '{part.name}' becomes a thin box"
             self._diagnostics.warn(part.element.where, text)
@@ -131,7 +138,8 @@ class Geoms:
             geom = self._add(body, each, pose, geometry, moving, piece=number)
             if geometry.kind == "plane" and not moving:
                 geom.size = (0.0, 0.0, 1.0)  # infinite
-            self.shapes.append(Shape(each, part, model, moving, skids))
+            drags = drags and geometry.kind == "sphere"
+            self.shapes.append(Shape(each, part, model, moving, tyre, drags))
             geom.group = COLLISION_GROUP
             geom.contype = geom.conaffinity = part.bitmask
             geom.solref = self._solref
@@ -140,15 +148,23 @@ class Geoms:
             geom.condim = 3 if part.mu > 0.0 else 1
             geom.friction = (max(part.mu, 1e-6), 0.005, 0.0001)
 
-    def _can_skid(self, part: Collision) -> bool:
-        """Tell whether the shape of a wheel that skids is a tyre, and warn if it is not."""
+    def _tyre(self, part: Collision, wheel: Wheel | None) -> Tyre | None:
+        """Return the directions of the friction of a wheel: what it states, or those of one that skids. Warn if that is
+        no tyre.
+        """
+        stated = read_tyre(part, wheel.axle) if wheel is not None else None
+        if wheel is None or not wheel.skids or stated is not None:
+            return stated
         kind = part.geometry.kind
-        if kind not in ("cylinder", "sphere"):
-            text = f"wheel collision '{part.name}' is a {kind} and grips in all directions, so its robot, which must "
-            self._diagnostics.warn(part.element.where, f"{text}skid to turn, turns too slowly; make it a cylinder")
-        return kind in ("cylinder", "sphere")
+        if kind in ROUND:
+            return Tyre(recipe.SKIDDING * part.mu, part.mu)
+        text = f"wheel collision '{part.name}' is a {kind} and grips in all directions, so its robot, which must "
+        self._diagnostics.warn(part.element.where, f"{text}skid to turn, turns too slowly; make it a cylinder")
+        return None
 
-    def add_visual(self, body: mujoco.MjsBody, name: str, base: Pose, part: Visual, *, moving: bool) -> None:
+    def add_visual(
+        self, body: mujoco.MjsBody | StaticParts, name: str, base: Pose, part: Visual, *, moving: bool
+    ) -> None:
         """Add a visual, without contacts or mass; `base` is the pose of its link in the body."""
         looks = looks_of(part)
         for number, (each, look) in enumerate(zip(geom_names(name, part), looks, strict=True)):
@@ -161,7 +177,7 @@ class Geoms:
                 geom.material = self._materials.name_of(part, look)
 
     def _add(
-        self, body: mujoco.MjsBody, name: str, pose: Pose, geometry: Geometry, moving: bool, *, piece: int
+        self, body: mujoco.MjsBody | StaticParts, name: str, pose: Pose, geometry: Geometry, moving: bool, *, piece: int
     ) -> mujoco.MjsGeom:
         """Add the shape alone: the convex `piece` of a mesh, its whole surface, or the part of one look."""
         if geometry.heights is not None and geometry.mesh is not None:
@@ -221,7 +237,7 @@ class Geoms:
         return name
 
 
-def _placed(body: mujoco.MjsBody, name: str, pose: Pose, kind: mujoco.mjtGeom) -> mujoco.MjsGeom:
+def _placed(body: mujoco.MjsBody | StaticParts, name: str, pose: Pose, kind: mujoco.mjtGeom) -> mujoco.MjsGeom:
     return body.add_geom(name=name, type=kind, pos=pose.position, quat=pose.quaternion)
 
 

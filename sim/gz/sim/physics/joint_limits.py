@@ -1,11 +1,14 @@
-"""The limits of effort and velocity of joints, which hold for whatever drives a joint, as in Gazebo.
+"""The limits of position, effort and velocity of joints, which hold for whatever drives a joint, as in Gazebo.
 
 A velocity servo with a limited effort is solved twice in a step in which it would need more: first as if it were strong
 enough, then with its largest force in the direction of the first solution. So it never passes the commanded velocity,
-however light the joint is. A joint that is faster than its limit is slowed down by an impulse between its two links.
+however light the joint is. A joint that is faster than its limit is slowed down by an impulse between its two links. A
+joint that flies into a limit of its position is stopped there by such an impulse, without rebound; MuJoCo's own limit,
+which is a spring, holds a joint that leans on it.
 
 Source: https://github.com/dartsim/dart/blob/v6.12.2/dart/constraint/ServoMotorConstraint.cpp (limits of a servo)
-Source: http://sdformat.org/spec?elem=joint (axis/limit: effort, velocity)
+Source: https://github.com/dartsim/dart/blob/v6.12.2/dart/constraint/JointConstraint.cpp (limits of position)
+Source: http://sdformat.org/spec?elem=joint (axis/limit)
 """
 
 from __future__ import annotations
@@ -23,6 +26,8 @@ from gz_course.sim.gz.sim.physics.servos import VELOCITY, WHEEL, JointServo
 from gz_course.sim.gz.sim.sdf.description import UNLIMITED, Joint, Model
 
 _FULL = 1.0 + 1e-6  # of an effort or a velocity: more is too much
+_LEANING = 0.05  # velocity into a limit [rad/s or m/s] up to which MuJoCo's spring stops a joint
+_GIVE = 1e-4  # depth [rad or m] in the spring up to which nothing is looked at
 _MOST_SOLUTIONS = 4  # of one step: servos that give way load others
 
 
@@ -52,6 +57,20 @@ class _Speed:
     beyond: float
 
 
+@dataclass(frozen=True, slots=True)
+class _Stop:
+    """The limits [rad or m] of the position of a degree of freedom whose place in qpos is `position`, and the positions
+    beyond which it is stopped.
+    """
+
+    dof: int
+    position: int
+    lower: float
+    upper: float
+    below: float
+    above: float
+
+
 class JointLimits:
     """The limits of all joints of one compiled model; `advance` steps it."""
 
@@ -65,9 +84,10 @@ class JointLimits:
         """Find the joints with limits. `servos` are those of the systems, by model."""
         self._servos: list[_Servo] = []
         self._speeds: list[_Speed] = []
+        self._stops: list[_Stop] = []
         for owner in models:
             for joint in owner.joints:
-                self._find_speeds(model, owner, joint)
+                self._find_limits(model, owner, joint)
             for servo in servos.get(owner.name, ()):
                 self._find_servo(model, owner, servo)
         # Views, because making one takes as long as using it.
@@ -79,7 +99,7 @@ class JointLimits:
     @property
     def active(self) -> bool:
         """Whether a step takes more than MuJoCo's own."""
-        return bool(self._servos or self._speeds)
+        return bool(self._servos or self._speeds or self._stops)
 
     def bind(self, model: mujoco.MjModel) -> None:
         """Read the gains, which systems set when they are bound."""
@@ -93,13 +113,21 @@ class JointLimits:
             begin = data.time
             for view, kept in self._state:
                 kept[:] = view
-        _step(model, data, between)
+        if between is None:
+            mujoco.mj_step(model, data)
+        else:
+            _step(model, data, between)
         if self._servos and (weak := self._too_weak()):
             self._give_way(model, data, weak, begin, between)
-        qvel = self._qvel.item
-        for limit in self._speeds:
-            if not -limit.beyond <= qvel(limit.dof) <= limit.beyond:
-                self._slow_down(model, data, limit)
+        if self._speeds:
+            qvel = self._qvel.item
+            for limit in self._speeds:
+                if not -limit.beyond <= qvel(limit.dof) <= limit.beyond:
+                    self._slow_down(model, data, limit)
+        qpos = self._qpos.item
+        for stop in self._stops:
+            if not stop.below <= qpos(stop.position) <= stop.above:
+                self._stop(model, data, stop)
 
     def _too_weak(self) -> list[tuple[_Servo, float]]:
         """Return the servos that would have needed more than their effort in the last step, and how much they missed.
@@ -156,15 +184,30 @@ class JointLimits:
     def _slow_down(self, model: mujoco.MjModel, data: mujoco.MjData, limit: _Speed) -> None:
         speed = self._qvel.item(limit.dof)
         excess = speed - math.copysign(limit.most, speed)
-        self._impulse[0, limit.dof] = 1.0
-        mujoco.mj_solveM(model, data, self._change, self._impulse)
-        self._impulse[0, limit.dof] = 0.0
-        self._qvel -= self._change[0] * (excess / self._change.item(limit.dof))
+        self._slow(model, data, limit.dof, excess)
         self._qpos[limit.position] -= excess * model.opt.timestep
 
-    def _find_speeds(self, model: mujoco.MjModel, owner: Model, joint: Joint) -> None:
+    def _stop(self, model: mujoco.MjModel, data: mujoco.MjData, stop: _Stop) -> None:
+        """Stop a joint at the limit that it has passed, if it still flies away from it."""
+        position, speed = self._qpos.item(stop.position), self._qvel.item(stop.dof)
+        above = position > stop.upper
+        if speed > _LEANING if above else speed < -_LEANING:
+            self._slow(model, data, stop.dof, speed)
+            self._qpos[stop.position] = stop.upper if above else stop.lower
+
+    def _slow(self, model: mujoco.MjModel, data: mujoco.MjData, dof: int, excess: float) -> None:
+        """Reduce the velocity of a joint by `excess` [rad/s or m/s] by an impulse between its links."""
+        self._impulse[0, dof] = 1.0
+        mujoco.mj_solveM(model, data, self._change, self._impulse)
+        self._impulse[0, dof] = 0.0
+        self._qvel -= self._change[0] * (excess / self._change.item(dof))
+
+    def _find_limits(self, model: mujoco.MjModel, owner: Model, joint: Joint) -> None:
         found = find_axes(model, f"{owner.name}::{joint.name}")
         for axis, stated in zip(found, (joint.axis, joint.axis2), strict=False):
+            if axis.part < 0 and (axis.lower > -math.inf or axis.upper < math.inf):
+                ends = (axis.lower, axis.upper, axis.lower - _GIVE, axis.upper + _GIVE)
+                self._stops.append(_Stop(axis.velocity, axis.position, *ends))
             if stated is not None and axis.part < 0 and 0.0 <= stated.velocity < UNLIMITED:
                 most = stated.velocity
                 self._speeds.append(_Speed(axis.velocity, axis.position, most, most * _FULL))

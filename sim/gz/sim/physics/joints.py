@@ -64,13 +64,17 @@ def add_joint(spec: mujoco.MjSpec, body: mujoco.MjsBody, name: str, joint: Joint
         made.axis = axis.direction
         made.ref = axis.initial_position
         made.damping[0] = axis.damping
-        made.frictionloss = axis.friction
+        if axis.friction > 0.0:
+            made.frictionloss = axis.friction
+            made.solref_friction = recipe.joint_solref(step)
+            made.solimp_friction[:2] = recipe.JOINT_FRICTION_IMPEDANCE
         made.stiffness[0] = axis.spring_stiffness
         made.springref = axis.spring_reference
         made.armature = 0.0 if number else armature
         if abs(axis.lower) < UNLIMITED or abs(axis.upper) < UNLIMITED:
             made.limited = mujoco.mjtLimited.mjLIMITED_TRUE
             made.range = _range(axis)
+            made.solref_limit = recipe.joint_solref(step)
     if joint.kind == "screw" and joint.axis is not None:
         advance = joint.thread_pitch / (2.0 * math.pi)
         slide = body.add_joint(
@@ -90,7 +94,7 @@ def _couple(spec: mujoco.MjSpec, name: str, follower: str, leader: str, line: tu
     equality = spec.add_equality(name=name, type=mujoco.mjtEq.mjEQ_JOINT, objtype=mujoco.mjtObj.mjOBJ_JOINT)
     equality.name1, equality.name2 = follower, leader
     equality.data[:5] = (*line, 0.0, 0.0, 0.0)
-    equality.solref = (recipe.contact_solref(step)[0], 1.0)
+    equality.solref = recipe.joint_solref(step)
     equality.solimp[:2] = (0.99, 0.999)
 
 

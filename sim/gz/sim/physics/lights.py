@@ -10,6 +10,7 @@ import math
 import mujoco
 import numpy as np
 
+from gz_course.sim.gz.sim.physics.static_parts import StaticParts
 from gz_course.sim.gz.sim.pose import Pose, matrix
 from gz_course.sim.gz.sim.sdf.description import Light
 
@@ -20,7 +21,7 @@ _TYPES = {
 }
 
 
-def add_light(body: mujoco.MjsBody, name: str, base: Pose, light: Light) -> None:
+def add_light(body: mujoco.MjsBody | StaticParts, name: str, base: Pose, light: Light) -> None:
     """Add a light to a body; `base` is the pose of its link in that body."""
     pose = base * light.pose
     made = body.add_light(name=name, pos=pose.position)

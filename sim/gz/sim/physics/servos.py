@@ -75,15 +75,15 @@ class JointServo:
         return math.inf if axis is None else axis.velocity
 
 
-def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str) -> None:
-    """Add the actuator of a servo; `name` is the MuJoCo name of the joint."""
+def add_servo(spec: mujoco.MjSpec, model: Model, servo: JointServo, name: str, *, soft: bool = False) -> None:
+    """Add the actuator of a servo; `name` is the MuJoCo name of the joint. `recipe.wheel_gain` says what is `soft`."""
     target = axis_name(name, servo.axis)
     if spec.joint(target) is None:
         return  # Loop joints and joints of static links have no MuJoCo joint.
     actuator = spec.add_actuator(name=target + _SUFFIX[servo.kind], target=target)
     actuator.trntype = mujoco.mjtTrn.mjTRN_JOINT
     if servo.kind == WHEEL:
-        actuator.set_to_velocity(kv=recipe.wheel_gain(model.mass(), servo.sharing, servo.radius))
+        actuator.set_to_velocity(kv=recipe.wheel_gain(model.mass(), servo.sharing, servo.radius, soft=soft))
     elif servo.kind == VELOCITY:
         actuator.set_to_velocity(kv=0.0)  # `find_drive` sets the gain once the inertia is known.
     else:

@@ -26,7 +26,9 @@ Motion = Callable[[int, Vector, Vector], Vector]
 
 
 def prepare(world: WorldAccess) -> None:
-    """Choose the integrator `implicitfast`, with which alone `move` works, and give wheels the rotor that it needs."""
+    """Choose the integrator `implicitfast`, with which alone `move` works, and give wheels the rotor and the softer
+    servo that it needs.
+    """
     model = world.model
     model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     for owner in world.description.models:
@@ -35,6 +37,9 @@ def prepare(world: WorldAccess) -> None:
                 armature = recipe.wheel_armature(owner.mass(), servo.sharing, servo.radius)
                 for axis in find_axes(model, f"{owner.name}::{servo.joint}"):
                     model.dof_armature[axis.velocity] = armature
+                actuator = model.actuator(f"{owner.name}::{servo.actuator}")
+                gain = recipe.wheel_gain(owner.mass(), servo.sharing, servo.radius, soft=True)
+                actuator.gainprm[0], actuator.biasprm[2] = gain, -gain
 
 
 def move(world: WorldAccess, geoms: Collection[int], motion: Motion) -> None:

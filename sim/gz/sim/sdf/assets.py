@@ -28,8 +28,8 @@ from gz_course.sim.gz.sim.sdf.grey_image import MOST_PIXELS
 from gz_course.sim.gz.sim.sdf.meshes import Mesh
 from gz_course.sim.gz.sim.sdf.textures import LARGEST, Pixels
 
-NOT_FOUND = "missing:"
-"""The prefix of the `<uri>` of a file that was not found; readers leave such an element out with a warning."""
+LEFT_OUT = "left out: "
+"""The prefix of a `<uri>` that says why a file cannot be used; readers leave such an element out with a warning."""
 
 MOST_BYTES = 64 << 20  # [byte] of all assets together
 MOST_ASSETS = 500
@@ -158,8 +158,8 @@ class Assets:
     def _found(self, uri: str, *kinds: str) -> Path:
         match = ADDRESS.fullmatch(uri)
         if match is None or match[2] not in kinds or uri not in self._held:
-            if uri.startswith(NOT_FOUND):
-                raise ResourceError(f"the file '{uri.removeprefix(NOT_FOUND)[:200]}' was not found")
+            if uri.startswith(LEFT_OUT):
+                raise ResourceError(uri.removeprefix(LEFT_OUT)[:300])
             raise ResourceError(f"'{uri[:200]}' is not among what was handed over")
         return Path(uri)
 

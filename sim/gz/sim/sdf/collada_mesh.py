@@ -10,6 +10,7 @@ Source: COLLADA 1.4.1 specification, https://www.khronos.org/files/collada_spec_
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import unquote
@@ -18,7 +19,7 @@ import collada
 import collada.material
 import collada.scene
 import numpy as np
-from collada.common import DaeBrokenRefError, DaeUnsupportedError
+from collada.common import DaeBrokenRefError, DaeIncompleteError, DaeMalformedError, DaeUnsupportedError
 from numpy.typing import NDArray
 
 from gz_course.sim.gz.sim.errors import ResourceError
@@ -30,6 +31,7 @@ LookOf = Callable[[object], Look | None]
 Corners = NDArray[np.float64]
 Part = tuple[tuple[str, ...], Corners, Corners | None, Look | None]
 """Names (innermost named node, geometry), corners (3 m, 3) [m], their places in a texture (3 m, 2), and the look."""
+_QUOTED = re.compile(rb'="[^"]*"')
 _DEEPEST = 200
 _MOST_INSTANCES = 100_000
 
@@ -47,8 +49,7 @@ def triangles_of(path: Path, data: bytes, notes: list[str]) -> list[Part]:
         return looks[id(material)]
 
     try:
-        # Unsupported elements are effects and cameras; a broken reference is mostly a missing texture.
-        document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
+        document = _document(data)
         if document.scene is None:
             # Without a scene there are no instances: geometries keep their own coordinates.
             parts = [
@@ -67,6 +68,19 @@ def triangles_of(path: Path, data: bytes, notes: list[str]) -> list[Part]:
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise ResourceError(f"{path}: the COLLADA file cannot be read ({reason})") from None
     return [(names, corners * scale, uv, look) for names, corners, uv, look in parts if len(corners)]
+
+
+def _document(data: bytes) -> collada.Collada:
+    """Return what a file holds; the exporter of assimp writes `<` into attributes, which is no XML."""
+    # Unsupported elements are effects and cameras; a broken reference or an incomplete image is a missing texture.
+    ignored = [DaeUnsupportedError, DaeBrokenRefError, DaeIncompleteError]
+    try:
+        return collada.Collada(io.BytesIO(data), ignore=ignored)
+    except DaeMalformedError:
+        escaped = _QUOTED.sub(lambda found: found[0].replace(b"<", b"&lt;"), data)
+        if escaped == data:
+            raise
+        return collada.Collada(io.BytesIO(escaped), ignore=ignored)
 
 
 def _walk(

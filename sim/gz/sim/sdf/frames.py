@@ -31,6 +31,8 @@ class Scope:
 
     own: str
     element: Element
+    flat_names: bool = False
+    """SDF before 1.8: a name with `::` is that of a part of a nested model."""
     frames: dict[str, _Frame] = field(default_factory=dict)
     nested: dict[str, Scope] = field(default_factory=dict)
     placed: dict[str, Pose] = field(default_factory=dict)
@@ -51,7 +53,7 @@ class Scope:
             raise element.error(f"<{element.tag}> needs a name attribute")
         if name == "world" or (name.startswith("__") and name.endswith("__")):
             raise element.error(f"the name '{name}' is reserved; call this <{element.tag}> something else")
-        if "::" in name:
+        if "::" in name and not self.flat_names:
             raise element.error(f"the name '{name}' must not contain '::', which separates scopes")
         if name in self.frames:
             first = self.frames[name].element
@@ -81,7 +83,7 @@ class Scope:
                 circle = " -> ".join([*names[names.index(name) :], name])
                 raise chain[name][1].error(f"the poses of these frames depend on each other in a circle: {circle}")
             outer, scoped, inner = name.partition("::")
-            if scoped:
+            if scoped and name not in self.frames:
                 if outer not in self.nested:
                     raise self._unknown(outer, asker)
                 chain[name] = (self.nested[outer].pose_of(inner, asker), asker)
@@ -103,7 +105,7 @@ class Scope:
         while True:
             if name == "world":
                 return name
-            if "::" in name:
+            if "::" in name and name not in self.frames:
                 outer, _, inner = name.partition("::")
                 if outer not in self.nested:
                     raise self._unknown(outer, asker)

@@ -78,7 +78,8 @@ def _link(element: Element, role: str, scope: Scope, places: Mapping[str, Pose])
     stated = element.find(role)
     if stated is None or not stated.text:
         raise element.error(f"joint '{element.name}' needs a <{role}> that names a link")
-    if stated.text not in ("world", "__model__") and stated.text.split("::")[0] not in scope.frames:
+    known = {stated.text, stated.text.split("::")[0]} & {"world", "__model__", *scope.frames}
+    if not known:
         hint = did_you_mean(stated.text, places, listing="its links are")
         owner = "the world" if scope.own == "world" else f"model '{scope.element.name}'"
         raise stated.error(

@@ -15,7 +15,13 @@ from gz_course.sim.gz.sim.sdf.description import Collision, Link, Model, Visual
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.frames import Scope
 from gz_course.sim.gz.sim.sdf.geometry import read_geometry
-from gz_course.sim.gz.sim.sdf.inertia import WATER, automatic_inertial, is_automatic, read_inertial
+from gz_course.sim.gz.sim.sdf.inertia import (
+    WATER,
+    automatic_inertial,
+    is_automatic,
+    read_inertial,
+    tell_what_gazebo_refuses,
+)
 from gz_course.sim.gz.sim.sdf.lights import read_light
 from gz_course.sim.gz.sim.sdf.materials import (
     read_albedo,
@@ -53,6 +59,7 @@ def read_link(element: Element, scope: Scope, model: Model, diagnostics: Diagnos
             link.inertial = automatic_inertial(inertial, link.collisions, diagnostics)
         elif not is_automatic(inertial):
             link.inertial = read_inertial(inertial, pose, model.static)
+            tell_what_gazebo_refuses(inertial, link, diagnostics)
     _warn_of_unsupported(element, model, diagnostics)
     return link
 

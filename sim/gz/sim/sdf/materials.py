@@ -10,6 +10,7 @@ colours of scripts, of which Gazebo reads neither alpha nor textures)
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError
@@ -167,8 +168,6 @@ def read_friction(collision: Element, diagnostics: Diagnostics) -> float:
     mu = surface.number("mu", 1.0) if surface is not None else 1.0
     if mu < 0.0:
         raise (surface or collision).error(f"friction <mu> must not be negative, got {mu:g}")
-    if surface is not None:
-        _warn_of_directions(surface, mu, collision.name, diagnostics)
     contact = collision.find("surface/contact")
     if contact is not None and contact.flag("collide_without_contact", False):
         text = f"<collide_without_contact> is not simulated, collision '{collision.name}' pushes what it touches"
@@ -176,7 +175,16 @@ def read_friction(collision: Element, diagnostics: Diagnostics) -> float:
     return min(mu, 1e6)
 
 
-def _warn_of_directions(surface: Element, mu: float, name: str, diagnostics: Diagnostics) -> None:
+def warn_of_directions(collision: Element, mu: float, honoured: bool, diagnostics: Diagnostics) -> None:
+    """Warn about what a `<collision>` of friction `mu` states of directions and is not simulated; `honoured`: `mu2`,
+    `fdir1` and `slip1` are.
+    """
+    surface, name = collision.find("surface/friction/ode"), collision.name
+    if surface is None:
+        return
+    if honoured:
+        _warn_of_slip(surface, ("slip2",), name, diagnostics)
+        return
     mu2 = surface.number("mu2", mu)
     if mu2 != mu:
         text = f"friction is the same in all directions here: collision '{name}' uses <mu> {mu:g}, not <mu2> {mu2:g}"
@@ -185,11 +193,15 @@ def _warn_of_directions(surface: Element, mu: float, name: str, diagnostics: Dia
     if directed and (mu2 != mu or any(surface.number(tag, 0.0) for tag in ("slip1", "slip2"))):
         text = f"<fdir1> of collision '{name}' is ignored: friction is the same in all directions here"
         diagnostics.warn(surface.where, text)
-    for tag in ("slip1", "slip2"):
+    _warn_of_slip(surface, ("slip1", "slip2"), name, diagnostics)
+
+
+def _warn_of_slip(surface: Element, tags: Iterable[str], name: str, diagnostics: Diagnostics) -> None:
+    for tag in tags:
         slip = surface.number(tag, 0.0)
         if slip > 0.0 and math.isfinite(slip):
-            text = f"<{tag}> {slip:g} of collision '{name}' is ignored: wheels that must skid to turn slide sideways "
-            text += "easily, all others slip by their friction only"
+            text = f"<{tag}> {slip:g} of collision '{name}' is ignored: only the round wheels of a DiffDrive slip, by "
+            text += "<slip1>, with an <fdir1> along the axle"
             diagnostics.warn(surface.where, text)
             break
 

@@ -5,7 +5,7 @@ Source: SDFormat, element `<model>`, http://sdformat.org/spec
 
 from __future__ import annotations
 
-from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf.description import Model, NestedModel, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
@@ -14,6 +14,7 @@ from gz_course.sim.gz.sim.sdf.includes import Includes, Opened, merged_children
 from gz_course.sim.gz.sim.sdf.joints import check_mimics, read_joint
 from gz_course.sim.gz.sim.sdf.links import read_link
 
+_UNIQUE_NAMES, _NESTED_MODELS = (1, 7), (1, 8)  # the versions of SDF that brought them
 Placed = tuple[Model, Scope, Pose, str]
 """A model, its scope, its pose in the file, and the frame of that pose."""
 _UNHEARD = {
@@ -54,7 +55,7 @@ class ModelReader:
         static = static or element.flag("static", False)
         model = Model(element.name, Pose(), element, static, element.flag("self_collide", False))
         model.version = opened.version
-        scope = Scope("__model__", element)
+        scope = Scope("__model__", element, flat_names=opened.version < _NESTED_MODELS)
         parts: list[Opened] = []
         nested: list[tuple[str, Model]] = []
         for part in self._parts(opened, static):
@@ -64,6 +65,8 @@ class ModelReader:
                 scope.add(child.name, part.place, pose=pose, relative_to=base, nested=inner_scope)
                 nested.append((child.name, inner))
             elif child.tag in ("link", "frame", "joint"):
+                if part.version < _UNIQUE_NAMES:
+                    _rename(child, scope, self._diagnostics)
                 add_frame(scope, child)
                 parts.append(part)
             elif child.tag == "plugin":
@@ -137,14 +140,31 @@ def joint_to_skipped(joint: Element, scope: Scope, includes: Includes, diagnosti
             diagnostics.warn(joint.where, f"joint '{joint.name}' is skipped with the include '{first}'")
             return True
     parent, child = joint.text_of("parent"), joint.text_of("child")
-    if parent == child or not (parent in scope.frames and child in scope.frames):
+    if parent == child:
         return False
-    link = scope.link_behind(parent, joint)
-    if link == scope.link_behind(child, joint):
+    try:
+        link, other = scope.link_behind(parent, joint), scope.link_behind(child, joint)
+    except SdfError:  # the reader of the joint says what is wrong
+        return False
+    if link == other:
         text = f"joint '{joint.name}' is left out: '{parent}' and '{child}' are both part of link '{link}'"
         diagnostics.warn(joint.where, text)
-        return True
-    return False
+    return link == other
+
+
+def _rename(element: Element, scope: Scope, diagnostics: Diagnostics) -> None:
+    """Give a link, joint or frame another name if it has that of one of another kind before it, as libsdformat does."""
+    if element.name not in scope.frames or scope.frames[element.name].element.tag == element.tag:
+        return
+    first, name, number = element.name, f"{element.name}_{element.tag}", 0
+    while name in scope.frames:
+        name, number = f"{first}_{element.tag}{number}", number + 1
+    taken = scope.frames[first].element
+    diagnostics.warn(
+        element.where,
+        f"<{element.tag}> '{first}' has the name of the <{taken.tag}> at {taken.where}; it is now '{name}'",
+    )
+    element.attributes["name"] = name
 
 
 def add_frame(scope: Scope, element: Element) -> None:

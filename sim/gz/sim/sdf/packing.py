@@ -9,12 +9,13 @@ for messages, in the same attributes as those of an expanded xacro file.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from gz_course.sim.gz.sim.errors import Diagnostics, ResourceError, SdfError
-from gz_course.sim.gz.sim.sdf.assets import NOT_FOUND, address, image_bytes, mesh_bytes
+from gz_course.sim.gz.sim.sdf.assets import LEFT_OUT, address, image_bytes, mesh_bytes
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.includes import read_root
 from gz_course.sim.gz.sim.sdf.resources import FILES
@@ -25,6 +26,8 @@ from gz_course.sim.gz.sim.sdf.writer import to_xml
 
 MOST_TEXTURE_BYTES = 24 << 20
 """Bytes of all textures that are handed over."""
+
+_PATH = re.compile(r"(?<![\w:/.'])/(?:[^/\s:,]+/)*([^/\s:,]+)")  # an absolute one; the last part is a group
 
 
 @dataclass
@@ -41,6 +44,14 @@ def pack(text: str, file: str) -> Packed:
     Raises `SdfError` like a reader.
     """
     return _Packer().pack(text, file)
+
+
+def without_folders(reason: str, uri: str) -> str:
+    """Return a reason why what a `<uri>` names cannot be used; names of files take the place of paths."""
+    name = uri.rstrip("/").rpartition("/")[2]
+    reason = reason.replace(f"'{uri}'", f"'{name}'").partition("; it was looked for in ")[0]
+    reason = _PATH.sub(r"\1", reason).removesuffix(f": {name}")
+    return "".join(letter if letter.isprintable() else " " for letter in reason)
 
 
 class _Packer:
@@ -84,8 +95,8 @@ class _Packer:
             return
         try:
             uri.text = packed(uri.text, owner)
-        except (ResourceError, OSError):
-            uri.text = NOT_FOUND + uri.text.rstrip("/").rsplit("/", 1)[-1]
+        except (ResourceError, OSError) as error:
+            uri.text = LEFT_OUT + without_folders(str(error), uri.text)
 
     def _model(self, uri: str, include: Element) -> str:
         path = FILES.find_model(uri, include.folder)

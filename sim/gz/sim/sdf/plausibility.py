@@ -7,14 +7,16 @@ Nothing is changed; the world runs as it is written.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
 from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.sdf import tyres
 from gz_course.sim.gz.sim.sdf.description import Link, Model
 from gz_course.sim.gz.sim.sdf.element import Element
 from gz_course.sim.gz.sim.sdf.inertia import solid, tensor
+from gz_course.sim.gz.sim.sdf.materials import warn_of_directions
 from gz_course.sim.gz.sim.sdf.vocabulary import known_words
 
 Found = Iterator[tuple[str, str]]
@@ -27,6 +29,8 @@ DEGREES = frozenset(range(15, 361, 15))
 """Limits of joints that are probably in degrees; other large limits are those of joints with several turns."""
 LEAST_INERTIA = 0.05
 """Share of the inertia of a link's largest collision, with its mass evenly spread, below which its own is doubted."""
+LARGEST_RATIO = 1e5
+"""Ratio of two masses above which the heavier body presses the lighter one into the ground."""
 _NEEDED = {
     "box": ("size",),
     "sphere": ("radius",),
@@ -168,6 +172,9 @@ def _numbers(text: str) -> list[float]:
 
 def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
     """Warn about a moving model that lacks mass, inertia or collisions; `held`: a joint of the world carries it."""
+    honoured = tyres.is_stated(model)
+    for part in (part for link in model.links for part in link.collisions):
+        warn_of_directions(part.element, part.mu, id(part) in honoured, diagnostics)
     if model.static:
         return
     links = {link.name: link for link in model.links}
@@ -195,6 +202,18 @@ def check_model(model: Model, held: bool, diagnostics: Diagnostics) -> None:
     if seen and not solid and not held and any(link.gravity for link in model.links):
         text = f"model '{model.name}' can be seen but has no <collision>, so it falls through the ground; add one, or "
         diagnostics.doubt(model.element.where, f"{text}write <static>true</static>")
+
+
+def check_masses(models: Iterable[Model], diagnostics: Diagnostics) -> None:
+    """Warn if the bodies that can touch each other have masses beyond what contacts can hold."""
+    moving = [model for model in models if not model.static and any(link.collisions for link in model.links)]
+    if len(moving) < 2:
+        return
+    light, heavy = min(moving, key=Model.mass), max(moving, key=Model.mass)
+    if heavy.mass() > LARGEST_RATIO * light.mass():
+        text = f"model '{heavy.name}' of {heavy.mass():.3g} kg is {heavy.mass() / light.mass():.1g} times as heavy as "
+        text += f"model '{light.name}' of {light.mass():.3g} kg; if it lies on it, it presses it into the ground; "
+        diagnostics.doubt(light.element.where, f"{text}use masses that differ by less than {LARGEST_RATIO:.0e}")
 
 
 def _usual_moment(link: Link) -> float:

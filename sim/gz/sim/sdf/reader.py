@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gz_course.sim.gz.sim.errors import Diagnostics
+from gz_course.sim.gz.sim.errors import Diagnostics, SdfError
 from gz_course.sim.gz.sim.pose import Pose
 from gz_course.sim.gz.sim.sdf import plausibility
 from gz_course.sim.gz.sim.sdf.description import Light, Model, WorldDescription
@@ -85,7 +85,8 @@ def read_model(
     around = Element("world", {"name": "spawned"}, children=[entity], file=root.file, line=root.line)
     world = _WorldReader(sdf_version(root), diagnostics, resources).read(around)
     if not world.models and not world.lights:
-        raise entity.error("what this <include> names was not found, so nothing is created")
+        why = diagnostics.warnings[-1] if diagnostics.warnings else f"{entity.where}: there is no model in it"
+        raise SdfError(f"{why}; nothing is created")
     return world.models[0] if world.models else world.lights[0]
 
 
@@ -147,7 +148,11 @@ class _WorldReader:
             elif element.tag in _NOT_SIMULATED:
                 self._diagnostics.warn(element.where, f"<{element.tag}> {_NOT_SIMULATED[element.tag]}")
         for part, model in models:
-            model.pose = _bounded(scope.pose_of(part.element.name, part.place), part.place)
+            model.pose = scope.pose_of(part.element.name, part.place)
+            if _too_far(model.pose):
+                self._diagnostics.warn(part.place.where, f"{_far(part.place)}, so it is left out")
+                self._includes.empty.add(model.name)
+                continue
             if not model.static and not model.links:
                 if _has_include(part.element):
                     text = f"model '{model.name}' holds nothing but what was not found, so it is left out too"
@@ -159,7 +164,10 @@ class _WorldReader:
         for element in lights:
             pose, base = pose_and_base(element)
             pose = scope.pose_of(base, element) * pose if base else pose
-            description.lights.append(read_light(element, _bounded(pose, element), self._diagnostics))
+            if _too_far(pose):
+                self._diagnostics.warn(element.where, f"{_far(element)}, so it is left out")
+                continue
+            description.lights.append(read_light(element, pose, self._diagnostics))
         taken: dict[str, Element] = {}
         for element in lights:
             first = taken.setdefault(element.name, element)
@@ -173,6 +181,7 @@ class _WorldReader:
         held = {end.partition("::")[0] for joint in description.joints for end in (joint.parent, joint.child)}
         for model in description.models:
             plausibility.check_model(model, model.name in held, self._diagnostics)
+        plausibility.check_masses(description.models, self._diagnostics)
 
     def _parts(self, world: Element) -> list[Opened]:
         chain = () if world.folder is None else (self._includes.resources.real(Path(world.file)),)
@@ -213,8 +222,10 @@ def long_step(step: float) -> str:
     )
 
 
-def _bounded(pose: Pose, element: Element) -> Pose:
-    """Return the pose. Raises `SdfError` if it is so far from the origin that floating-point numbers lose precision."""
-    if not np.max(np.abs(pose.position)) < FARTHEST:
-        raise element.error(f"<{element.tag}> '{element.name}' stands more than {FARTHEST:g} m away from the origin")
-    return pose
+def _too_far(pose: Pose) -> bool:
+    """Return whether a pose is so far from the origin that floating-point numbers lose precision."""
+    return not np.max(np.abs(pose.position)) < FARTHEST
+
+
+def _far(element: Element) -> str:
+    return f"<{element.tag}> '{element.name}' stands more than {FARTHEST:g} m away from the origin"

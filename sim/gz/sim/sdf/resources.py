@@ -14,6 +14,7 @@ Source: Finding resources, https://gazebosim.org/api/sim/8/resources.html
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -37,6 +38,7 @@ NEWEST_SDF = (1, 12)
 
 _VARIABLES = ("GZ_SIM_RESOURCE_PATH", "SDF_PATH", "IGN_GAZEBO_RESOURCE_PATH")
 _WORLD_ENDINGS = (".sdf", ".world", ".xacro", ".urdf", ".xml")
+_MOST_READ = 64 * 1024  # of a file that may be a world
 _MOST_BYTES = 64 * 1024 * 1024
 
 
@@ -74,6 +76,19 @@ def find_world(name: str | Path) -> Path:
         f"world file '{text}' was not found as a path, in GZ_SIM_RESOURCE_PATH, or among the built-in worlds"
         f"{f'; {name}, without a folder, is found' if name in known else near}"
     )
+
+
+def known_worlds() -> dict[str, str]:
+    """Return the worlds that are found by a name: name -> the first sentence of the comment at the top of its file."""
+    found: dict[str, str] = {}
+    for folder in (Path(), *resource_paths(), BUILT_IN_WORLDS):
+        for path in sorted(_worlds_in(folder)):
+            with contextlib.suppress(OSError):
+                text = path.read_bytes()[:_MOST_READ].decode("utf-8", "replace")
+                if "<world" in text:
+                    comment = " ".join(text.partition("<!--")[2].partition("-->")[0].split())
+                    found.setdefault(path.name, comment.split(": gz ")[0].split(". ")[0].removesuffix("."))
+    return found
 
 
 def _worlds_in(folder: Path) -> Iterator[Path]:
@@ -139,9 +154,18 @@ def find_file(uri: str, relative_to: Path | None) -> Path:
     hint = _path_hint(rest, relative_to) if uri.startswith(("model://", "package://")) else ""
     siblings = {path.name for candidate in candidates for path in _listed(candidate.parent)}
     hint = hint or did_you_mean(Path(rest).name, siblings)
+    hint = hint or _as_model(uri, relative_to)
     if not hint:
         hint = "; it was looked for in " + ", ".join(dict.fromkeys(str(each.parent) for each in candidates))
     raise ResourceError(f"'{uri}' was not found{hint}")
+
+
+def _as_model(uri: str, relative_to: Path | None) -> str:
+    """Return the end of a sentence on `file://models/NAME/FILE`, which is found as `model://NAME/FILE`."""
+    scheme, _, path = uri.partition("://")
+    meant = "model://" + path.lstrip("/").removeprefix("models/")
+    found = scheme == "file" and any(_is_file(each) for each in _candidates(meant, relative_to))
+    return f"; a path after file:// is absolute or begins beside the world; did you mean '{meant}'?" if found else ""
 
 
 def _candidates(uri: str, relative_to: Path | None) -> Iterator[Path]:

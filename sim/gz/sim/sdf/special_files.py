@@ -1,4 +1,7 @@
-"""What stands under the name of a file and is none: it is never opened, because reading it may wait or never end."""
+"""What stands under the name of a file and is none.
+
+What is no regular file is never opened, because reading it may wait or never end.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +17,16 @@ _KINDS = {
 }
 
 
+_LFS = b"version https://git-lfs.github.com/spec/"
+_LONGEST_POINTER = 1024  # [byte]
+
+
 def special_kind(path: Path) -> str:
     """Return what a path is, in words, if it exists and is no file that can be read; else an empty text."""
     try:
-        return _KINDS.get(stat.S_IFMT(path.stat().st_mode), "")
+        found = path.stat()
+        if stat.S_ISREG(found.st_mode) and found.st_size < _LONGEST_POINTER and path.read_bytes().startswith(_LFS):
+            return "the pointer of Git LFS to a file that was not fetched; `git lfs pull` fetches it"
+        return _KINDS.get(stat.S_IFMT(found.st_mode), "")
     except (OSError, ValueError):
         return ""

@@ -262,6 +262,22 @@ def _words_of_sensor(file: Path) -> dict[str, str]:
     return {}
 
 
+def described(element: str = "sdf", depth: int = 0, seen: set[str] | None = None) -> Iterator[str]:
+    """Yield all words as the lines of a tree; an element that was there before is without what it holds."""
+    words, seen = known_words(), set() if seen is None else seen
+    indent, children = "  " * depth, sorted(words.children.get(element, ()))
+    lines = [f"{indent}  <attribute name='{name}'/>" for name in sorted(words.attributes.get(element, ()))]
+    if not (children or lines) or element in seen:
+        yield f"{indent}<element name='{element}'/>"
+        return
+    seen.add(element)
+    yield f"{indent}<element name='{element}'>"
+    yield from lines
+    for child in children:
+        yield from described(child, depth + 1, seen)
+    yield f"{indent}</element>"
+
+
 def check(root: Element, diagnostics: Diagnostics) -> None:
     """Warn about each unknown element and attribute, with the nearest word."""
     for count, (where, sentence, word, known, listing) in enumerate(_unknown(root)):

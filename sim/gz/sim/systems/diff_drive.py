@@ -10,7 +10,7 @@ Source: https://github.com/gazebosim/gz-sim/blob/gz-sim8/src/systems/diff_drive/
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +18,7 @@ import numpy as np
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.driving.odometry_reports import OdometryReports
 from gz_course.sim.gz.sim.driving.speed_limiter import SpeedLimiter, limit_parameters
+from gz_course.sim.gz.sim.driving.tyre_slip import TyreSlip
 from gz_course.sim.gz.sim.driving.wheel_odometry import WheelOdometry
 from gz_course.sim.gz.sim.physics.servos import MAX_WHEEL_SPEED, WHEEL, JointServo
 from gz_course.sim.gz.sim.plugins.model_scope import ModelScope
@@ -30,6 +31,9 @@ from gz_course.sim.gz.sim.sdf.element import Element
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
     from gz_course.sim.gz.transport import Node
+
+
+_MOST_FASTER = 0.02  # turning in Gazebo, relative to that here, that is not worth a warning
 
 
 @system("DiffDrive", "gz-sim-diff-drive-system")
@@ -54,7 +58,7 @@ class DiffDrive(System):
         left, right = (_joints(model, plugin, side) for side in ("left_joint", "right_joint"))
         radius = _positive(plugin.element, "wheel_radius", 0.2)
         wheels = left + right
-        skids = any(_skids(model, side, radius) for side in (left, right))
+        skids = any(_skids(model, side, radius) for side in (left, right)) and len(set(_frictions(model, wheels))) == 1
         return [JointServo(joint, WHEEL, radius, len(wheels), skids=skids) for joint in wheels]
 
     def configure(self, world: WorldAccess, model: Model | None, plugin: Plugin) -> None:
@@ -79,14 +83,38 @@ class DiffDrive(System):
         if both:
             text = f"DiffDrive of model '{scope.full_name}' has joint '{both[0]}' on the left and on the right; "
             world.diagnostics.warn(element.where, f"{text}name another joint in one of them")
+        if any(_skids(model, side, radius) for side in self._sides):
+            self._check_grip(scope, element)
+        else:
+            self._check_width(scope, element, separation)
         self._most, self._slowest = min(_limit(model, name) for side in self._sides for name in side)
         self._odometry = WheelOdometry(separation, radius)
+        self._slip = TyreSlip(world, model)
+        self.pushes = self._slip.active  # type: ignore[misc]
+
+    def _check_grip(self, scope: ModelScope, element: Element) -> None:
+        """Warn about a robot that must skid to turn, which it does not in Gazebo."""
+        if _grips(self._model, self._sides):
+            text = f"the wheels of model '{scope.full_name}' grip sideways, so it turns here, but hardly in Gazebo; "
+            text += "give their collisions <slip1>0.035</slip1> and <fdir1>0 0 1</fdir1> in <surface><friction><ode>"
+            self._world.diagnostics.differs(element.where, text)
+
+    def _check_width(self, scope: ModelScope, element: Element, separation: float) -> None:
+        """Warn about wide cylinders as wheels, with which a robot turns faster in Gazebo."""
+        width = min(_width(self._model, side) for side in self._sides)
+        faster = width / (separation - width) if width < separation else 0.0
+        if faster > _MOST_FASTER:
+            text = f"the wheels of model '{scope.full_name}' are cylinders, {width:g} m wide; in Gazebo they touch the "
+            text += f"ground at their edges, so that it turns {faster:.0%} faster there; make their collisions "
+            text += "<sphere>, or cylinders of <length>0.001</length>"
+            self._world.diagnostics.differs(element.where, text)
 
     @property
     def reports(self) -> OdometryReports:
         return self._reports
 
     def bind(self) -> None:
+        self._slip.bind()
         self._left, self._right = (
             [self._world.truth.joint_address(self._model, joint) for joint in side] for side in self._sides
         )
@@ -133,7 +161,9 @@ class DiffDrive(System):
             self._target = (0.0, 0.0)
 
     def pre_update(self, info: UpdateInfo) -> None:
-        """Write the wheel speeds computed after the last step to the servos."""
+        """Write the wheel speeds computed after the last step to the servos; push tyres that slip."""
+        if self.pushes:
+            self._slip.push()
         speeds = (self._left_speed, self._right_speed)
         if speeds != self._written:
             control = self._world.data.ctrl
@@ -254,6 +284,36 @@ def _skids(model: Model, side: list[str], radius: float) -> bool:
         float(np.linalg.norm(np.cross(place - places[0], axle))) > 0.1 * radius
         for place, axle in zip(places, axles, strict=True)
     )
+
+
+def _width(model: Model, side: list[str]) -> float:
+    """Return the width [m] of the widest cylinder of the wheels of one side; 0 if there is none."""
+    joints = (model.joint(name) for name in side)
+    links = (model.link(joint.child) for joint in joints if joint is not None)
+    parts = (part for link in links if link is not None for part in link.collisions)
+    return max((part.geometry.size[2] for part in parts if part.geometry.kind == "cylinder"), default=0.0)
+
+
+def _frictions(model: Model, wheels: list[str]) -> Iterator[float]:
+    """Yield the friction of each collision of the wheels."""
+    for joint in (model.joint(name) for name in wheels):
+        link = model.link(joint.child) if joint is not None else None
+        for part in link.collisions if link is not None else ():
+            yield part.mu
+
+
+def _grips(model: Model, sides: list[list[str]]) -> bool:
+    """Tell whether no wheel has a slip, or another friction along its axle."""
+    for joint in (model.joint(name) for side in sides for name in side):
+        link = model.link(joint.child) if joint is not None else None
+        for part in link.collisions if link is not None else ():
+            ode = part.element.find("surface/friction/ode")
+            if ode is None:
+                continue
+            mu = ode.number("mu", 1.0)
+            if ode.number("mu2", mu) != mu or ode.number("slip1", 0.0) > 0.0 or ode.number("slip2", 0.0) > 0.0:
+                return False
+    return True
 
 
 def _positive(element: Element, tag: str, default: float) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import gz_course.sim.gz.sim.world as gz_sim_world
+from gz_course.sim.gz.msgs import message_class
 from gz_course.sim.gz.sim.plugins.sensor import sensor_types
 from gz_course.sim.gz.sim.plugins.system import systems
 from gz_course.sim.gz.sim.world import World
@@ -36,8 +37,53 @@ def test_a_built_in_world_is_free_of_warnings_and_calm(name: str) -> None:
 def test_a_built_in_model_comes_by_its_name(name: str) -> None:
     text = f"<sdf version='1.10'><world name='w'><include><uri>model://{name}</uri></include></world></sdf>"
     world = World.from_string(text)
-    assert name in world.truth.model_names(static=True) or any(light.name == name for light in world.description.lights)
+    called = {each.lower().replace(" ", "_") for each in world.truth.model_names(static=True)}
+    assert name in called | {light.name for light in world.description.lights}
     assert not [warning for warning in world.warnings if "stays silent" not in warning]
+
+
+# World of Gazebo's -> its name inside, its models (also static ones), some of its topics.
+OF_GAZEBO = {
+    "diff_drive": ("diff_drive", "vehicle_blue vehicle_green", "/model/vehicle_blue/odometry /model/vehicle_green/tf"),
+    "velocity_control": ("velocity_control", "vehicle_blue vehicle_green", "/model/vehicle_blue/cmd_vel"),
+    "camera_sensor": ("camera_sensor", "box sphere camera", "/camera /camera_info"),
+    "sensors_demo": (
+        "lidar_sensor",
+        "box cameras_alone camera_with_lidar rgbd_camera thermal_camera",
+        "/camera /camera_alone /depth_camera /rgbd_camera/image /rgbd_camera/points /thermal_camera /lidar",
+    ),
+    "gpu_lidar_sensor": ("gpu_lidar_sensor", "box model_with_lidar Playground", "/lidar /lidar/points"),
+    "visualize_lidar": ("visualize_lidar_world", "box model_with_lidar vehicle_blue", "/lidar /lidar2"),
+    "spherical_coordinates": ("spherical_coordinates", "NavSat", "/navsat"),
+    "tunnel": ("diff_drive", "vehicle tile_0", "/camera /cmd_vel"),
+    "triggered_camera_sensor": ("triggered_camera_sensor", "box sphere camera", "/camera /camera/trigger"),
+    "linear_battery_demo": (
+        "default",
+        "vehicle_blue vehicle_green",
+        "/model/vehicle_blue/battery/linear_battery/state /model/vehicle_green/battery/linear_battery/state",
+    ),
+    "apply_joint_force": ("apply_joint_force", "joint_force_example", "/model/joint_force_example/joint/j1/cmd_force"),
+    "actor": ("actors", "box camera demo_actor actor_talking actor_walking", "/camera"),
+}
+
+
+@pytest.mark.parametrize("name", OF_GAZEBO)
+def test_a_world_of_gazebo_has_its_models_and_topics(name: str, node: Node) -> None:
+    world = World.load(f"{name}.sdf", node=node)
+    called, models, topics = OF_GAZEBO[name]
+    assert world.name == called
+    assert {"ground_plane", *models.split()} <= set(world.truth.model_names(static=True))
+    assert set(topics.split()) <= set(node.topic_list())
+
+
+def test_the_vehicle_of_gazebo_drives_within_its_limits(node: Node) -> None:
+    world = World.load("diff_drive.sdf", node=node)
+    twist = message_class("gz.msgs.Twist")()
+    twist.linear.x = 2.0
+    world.step(10)
+    node.advertise("/model/vehicle_blue/cmd_vel", type(twist)).publish(twist)
+    world.step(4000)
+    assert world.truth.velocity("vehicle_blue").linear[0] == pytest.approx(0.5, rel=0.05)
 
 
 def test_everything_stands_in_the_readme() -> None:

@@ -26,7 +26,7 @@ def test_the_present_world_comes_back(expand: bool) -> None:
     world.editor.spawn("<sdf version='1.10'><light name='lamp' type='point'><pose>0 1 2 0 0 0</pose></light></sdf>")
     drive = next(each for each in world.systems if each.name == "DiffDrive")
     drive.command(0.3, 0.4)  # type: ignore[attr-defined]
-    world.step(700)
+    world.step(800)
     world.editor.set_pose("crate", Pose((1.0, 2.0, 0.25)))
     world.editor.remove("pillar" if "pillar" in world.truth.model_names(static=True) else "ground_plane")
     world.editor.set_physics(step_size=0.002)

@@ -15,6 +15,7 @@ from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 from gz_course.sim.gz.sim.server import Server
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
+from gz_course.tests.own_time import OwnTime
 
 
 @pytest.fixture
@@ -88,7 +89,7 @@ def test_run_ends_after_its_iterations(server: Server) -> None:
 def test_run_keeps_pace_with_the_wall_clock(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     """With a clock that moves only while the server waits, simulated time and waited time are equal."""
     now = [0]
-    monkeypatch.setattr("gz_course.sim.gz.sim.server.time.monotonic_ns", lambda: now[0])
+    monkeypatch.setattr("gz_course.sim.gz.sim.server.time", OwnTime(monotonic_ns=lambda: now[0]))
 
     class Waits(threading.Event):
         def wait(self, timeout: float | None = None) -> bool:
@@ -103,7 +104,7 @@ def test_run_keeps_pace_with_the_wall_clock(server: Server, monkeypatch: pytest.
 def test_run_does_not_catch_up_in_a_burst(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0]
     waited = [0.0]
-    monkeypatch.setattr("gz_course.sim.gz.sim.server.time.monotonic_ns", lambda: now[0])
+    monkeypatch.setattr("gz_course.sim.gz.sim.server.time", OwnTime(monotonic_ns=lambda: now[0]))
     original = server.step
 
     def slow_step(n: int = 1) -> None:

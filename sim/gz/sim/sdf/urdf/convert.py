@@ -24,7 +24,16 @@ from gz_course.sim.gz.sim.sdf.urdf.gazebo_tags import (
 )
 from gz_course.sim.gz.sim.sdf.urdf.lumping import Body, lump
 from gz_course.sim.gz.sim.sdf.urdf.making import make, place, set_value, write
-from gz_course.sim.gz.sim.sdf.urdf.robot import WORLD, Robot, UrdfJoint, UrdfShape, numbers, origin_of, read_robot
+from gz_course.sim.gz.sim.sdf.urdf.robot import (
+    MEASURES,
+    WORLD,
+    Robot,
+    UrdfJoint,
+    UrdfShape,
+    numbers,
+    origin_of,
+    read_robot,
+)
 
 SDF_VERSION = "1.11"
 _BALL = 0.01  # [m]
@@ -159,8 +168,7 @@ def _shape(shape: UrdfShape, name: str, pose: Pose) -> Element:
         scale = numbers(geometry, "scale", 3, (1.0, 1.0, 1.0))
         parts = [make(geometry, "uri", filename), make(geometry, "scale", write(scale))]
     else:
-        words = ("radius",) if kind == "sphere" else ("radius", "length")
-        parts = [make(geometry, word, write(numbers(geometry, word, 1))) for word in words]
+        parts = [make(geometry, word, write(numbers(geometry, word, 1))) for word in MEASURES[kind]]
     children = [
         place(shape.element, pose * shape.pose),
         make(geometry, "geometry", children=[make(geometry, kind, children=parts)]),

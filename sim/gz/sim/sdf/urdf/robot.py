@@ -35,6 +35,15 @@ _WORDS: dict[str, frozenset[str]] = {
     }.items()
 }
 
+MEASURES = {
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "capsule": ("radius", "length"),
+    "mesh": ("filename",),
+}
+"""The attributes that each shape needs."""
+
 
 @dataclass(eq=False)
 class UrdfInertial:
@@ -152,8 +161,12 @@ def numbers(element: Element, attribute: str, count: int, default: tuple[float, 
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"
         hint = "; run xacro on the file first" if "${" in text or "$(" in text else ""
         raise element.error(f"{attribute} of <{element.tag}> must be {wanted}, got '{text[:80]}'{hint}")
+    if element.tag == "limit":  # the largest number of a double means that there is none
+        return [min(max(value, -_LARGEST), _LARGEST) for value in values]
     if any(abs(value) > _LARGEST for value in values):
-        raise element.error(f"{attribute} of <{element.tag}> must be at most {_LARGEST:g}, got '{text[:80]}'")
+        raise element.error(
+            f"{attribute} of <{element.tag}> must be between {-_LARGEST:g} and {_LARGEST:g}, got '{text[:80]}'"
+        )
     return values
 
 
@@ -238,6 +251,14 @@ def _shape(element: Element, diagnostics: Diagnostics) -> UrdfShape | None:
     if shape is None:
         kinds = ", ".join(f"<{kind}>" for kind in sorted(_WORDS["geometry"]))
         diagnostics.warn(element.where, f"<{element.tag}> has no <geometry> with one of {kinds}; it is left out")
+        return None
+    missing = [word for word in MEASURES[shape.tag] if word not in shape.attributes]
+    if missing:
+        example = f"<{shape.tag} {missing[0]}='{shape.text[:80] or '...'}'/>"
+        diagnostics.warn(
+            shape.where,
+            f"<{shape.tag}> needs the attribute {missing[0]}, as in {example}; this <{element.tag}> is left out",
+        )
         return None
     return UrdfShape(element.name, origin_of(element), shape, element)
 

@@ -32,7 +32,7 @@ from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import rotate
 from gz_course.sim.gz.sim.sdf.description import Joint, Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.beyond_the_course.linear_battery_plugin import LinearBatteryPlugin
+from gz_course.sim.gz.sim.systems.linear_battery_plugin import LinearBatteryPlugin
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess

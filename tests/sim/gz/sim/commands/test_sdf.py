@@ -149,3 +149,11 @@ def test_graph_of_a_model_with_includes_and_its_faults(
     )
     assert main(["sdf", "-g", "poses", str(world)]) != 0
     assert "did you mean 'pose'?" in capsys.readouterr().err
+
+
+def test_describe(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sdf", "-d"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "<element name='sdf'>" and lines[-1] == "</element>"
+    assert "        <attribute name='name'/>" in lines and any("<element name='diffuse'/>" in line for line in lines)
+    assert sum(line.strip() == "<element name='link'>" for line in lines) == 1, "each element is described once"

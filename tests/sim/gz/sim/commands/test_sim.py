@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
+import urllib.request
 import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -160,7 +161,7 @@ def test_errors_are_one_sentence(start: Callable[..., subprocess.Popen[str]], tm
         (["--initial-sim-time", "-3", "empty.sdf"], 104, "zero or more"),
         (["--initial-sim-time"], 114, "--initial-sim-time"),
         (["--record-pth", "x", "empty.sdf"], 109, "did you mean '--record-path'?"),
-        ([], 2, "which world"),
+        (["-s"], 2, "which world"),
     ],
 )
 def test_wrong_usage_is_one_line_and_a_code(
@@ -330,3 +331,13 @@ def test_a_view_opens_beside_the_simulator_and_ends_with_it(
     assert main(["sim", "-s", "-r", "--iterations", "3", "empty.sdf"]) == 0
     assert re.fullmatch(SERVED.format("empty"), capsys.readouterr().err)
     assert FakeView.made == []
+
+
+def test_without_a_world_one_is_chosen_in_the_browser(start: Callable[..., subprocess.Popen[str]]) -> None:
+    process = start("-r", "--iterations", "5")
+    assert process.stderr is not None
+    said = process.stderr.readline()
+    assert said.startswith("gz sim: choose a world at http://127.0.0.1:")
+    with urllib.request.urlopen(said.split()[-1] + "start", b"world=empty.sdf", timeout=600) as answer:
+        assert "The world empty.sdf is being loaded" in answer.read().decode()
+    assert process.wait(600) == 0

@@ -210,7 +210,7 @@ def test_a_loop_is_closed_at_the_place_of_its_joint(load_text: Load) -> None:
     ("text", "sentence"),
     [
         (joint("j", "fixed", "a", "nobody"), "'nobody', which the world does not have"),
-        (joint("j", "fixed", "a", "a::l"), "with itself"),
+        (joint("j", "fixed", "a", "a"), "with itself"),
         (joint("j", "revolute", "world", "a", axis("0 0 1", "<mimic joint='x'/>")), "cannot have a <mimic>"),
     ],
 )

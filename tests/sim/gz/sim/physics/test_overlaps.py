@@ -47,8 +47,8 @@ def test_an_overlap_is_named_and_ends_slowly(places: tuple[tuple[float, float], 
 
 
 def test_bodies_that_touch_are_not_changed() -> None:
-    world = world_of((0, 0.5), (1.0, 0.499))
-    assert (world.warnings, world.model.npair) == ([], 0)
+    touching, apart = world_of((0, 0.5), (1.0, 0.499)), world_of((0, 0.5), (3.0, 0.5))
+    assert (touching.warnings, touching.model.npair) == ([], apart.model.npair)
 
 
 def test_a_body_that_is_set_down_inside_another_is_pushed_out_too() -> None:

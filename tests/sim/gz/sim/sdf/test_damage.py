@@ -86,7 +86,6 @@ def test_a_long_chain_of_frames_is_no_recursion(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("inside", "sentence"),
     [
-        ("<model name='m'><pose>1e30 0 0 0 0 0</pose><link name='l'/></model>", "more than 1e\\+07 m away"),
         ("<model name='m'><pose>0 nan 0 0 0 0</pose><link name='l'/></model>", "must not be NaN"),
         ("<gravity>0 0 1e300</gravity>", "<gravity> must be finite"),
         ("<physics><max_step_size>inf</max_step_size></physics>", "between 0.000001 and 0.1 seconds, got inf"),

@@ -157,3 +157,28 @@ def test_a_cone_balances_a_quarter_up() -> None:
 def test_bodies_that_cannot_be_are_refused(inside: str, sentence: str) -> None:
     with pytest.raises(SdfError, match=f"^f:1: .*{sentence}"):
         inertial(f"<inertial>{inside}</inertial>")
+
+
+INERTIA = """<sdf version='1.10'><world name='w'><model name='m'><static>{static}</static><link name='l'><inertial>
+<mass>1</mass><inertia><ixx>{0}</ixx><iyy>{1}</iyy><izz>{2}</izz><ixy>{3}</ixy></inertia></inertial></link></model></world></sdf>"""
+
+
+@pytest.mark.parametrize(
+    ("static", "moments", "refused"),
+    [
+        ("true", (1, 1, 3, 0), True),
+        ("true", (-1, 1, 1, 0), True),
+        ("true", (1, 1, 1, 2), True),
+        ("true", (0, 0, 0, 0), False),
+        ("false", (1, 1, 2.001, 0), True),
+        ("false", (5.445e-05, 5.445e-05, 1.089e-04, 0), False),
+        ("false", (1, 1, 1, 0), False),
+    ],
+)
+def test_an_inertia_that_gazebo_refuses_is_named(static: str, moments: tuple[float, ...], refused: bool) -> None:
+    diagnostics = Diagnostics()
+    read_world(INERTIA.format(*moments, static=static), "w.sdf", diagnostics)
+    assert not diagnostics.warnings
+    assert ["w.sdf:2" in each and "A link named l has invalid" in each for each in diagnostics.differences] == [
+        True
+    ] * refused

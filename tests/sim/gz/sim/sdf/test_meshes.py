@@ -242,6 +242,36 @@ def test_collada_nodes_unit_and_mirrors(tmp_path: Path) -> None:
     assert len(read_mesh(path, submesh="tetra").triangles) == 8
 
 
+IMAGE = """<library_images><image id="i"/></library_images><library_effects><effect id="e"><profile_COMMON>
+<newparam sid="f"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="s"><sampler2D><source>f</source></sampler2D></newparam>
+<technique sid="t"><lambert><diffuse><texture texture="s" texcoord="u"/></diffuse></lambert></technique>
+</profile_COMMON></effect></library_effects>"""
+
+
+@needs_collada
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('name="second"', 'name="$<tetra>"'),
+        (" <library_geometries>", f"{IMAGE}<library_geometries>"),
+    ],
+)
+def test_what_exporters_get_wrong_costs_no_shape(tmp_path: Path, old: str, new: str) -> None:
+    path = tmp_path / "a.dae"
+    path.write_text(DAE.replace(old, new))
+    assert len(read_mesh(path).triangles) == 8
+
+
+def test_a_pointer_of_git_lfs_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "part.stl"
+    path.write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12345\n")
+    with pytest.raises(
+        ResourceError, match="this is the pointer of Git LFS to a file that was not fetched; `git lfs p"
+    ):
+        read_mesh(path)
+
+
 @needs_collada
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=60)
 @given(st.integers(0, len(DAE) - 1), st.integers(0, 30), st.sampled_from(["", "9", "<", "nan ", "#g"]))

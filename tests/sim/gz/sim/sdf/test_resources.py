@@ -170,3 +170,11 @@ def test_any_uri_is_found_or_refused_with_a_sentence(uri: str) -> None:
             assert find(uri, None).exists()
         except SdfError as error:
             assert str(error)
+
+
+def test_a_model_behind_file_is_named_as_a_model(tmp_path, monkeypatch):
+    (tmp_path / "models" / "arm").mkdir(parents=True)
+    (tmp_path / "models" / "arm" / "arm.stl").touch()
+    monkeypatch.setenv("GZ_SIM_RESOURCE_PATH", str(tmp_path / "models"))
+    with pytest.raises(ResourceError, match=r"did you mean 'model://arm/arm\.stl'\?"):
+        find_file("file://models/arm/arm.stl", tmp_path / "worlds")

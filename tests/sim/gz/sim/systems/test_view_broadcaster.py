@@ -17,6 +17,7 @@ from gz_course.sim.gz.sim.systems import view_broadcaster
 from gz_course.sim.gz.sim.systems.view_broadcaster import STATE, ViewBroadcaster, split_stamp
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node, Publisher
+from gz_course.tests.own_time import OwnTime
 
 BALL = """
 <plugin filename="gz-course-view-broadcaster-system" name="gz_course::systems::ViewBroadcaster"/>
@@ -84,7 +85,7 @@ def test_a_drag_pushes_until_it_is_let_go_or_forgotten(
     load_text: LoadText, node: Node, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now = [10**9]
-    monkeypatch.setattr(view_broadcaster.time, "monotonic_ns", lambda: now[0])
+    monkeypatch.setattr(view_broadcaster, "time", OwnTime(monotonic_ns=lambda: now[0]))
     world = load_text(BALL, node=node)
     hand = node.advertise("/world/w/view/drag", EntityWrench)
     drag(hand, 2.0, 0.0, 0.0)

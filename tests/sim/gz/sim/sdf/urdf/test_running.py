@@ -20,7 +20,7 @@ def wheel(side: str, y: float) -> str:
     inertia = INERTIA.format(0.2, 1.5e-4, 1.5e-4, 2.5e-4)
     return (
         f"<link name='{side}_wheel'><inertial>{inertia}</inertial>"
-        "<collision><geometry><cylinder radius='0.05' length='0.02'/></geometry></collision></link>"
+        "<collision><geometry><cylinder radius='0.05' length='0.001'/></geometry></collision></link>"
         f"<joint name='{side}_joint' type='continuous'><parent link='base_link'/><child link='{side}_wheel'/>"
         f"<origin xyz='0 {y} 0' rpy='-1.5707963267948966 0 0'/><axis xyz='0 0 1'/></joint>"
     )

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
-from gz_course.sim.gz.sim.systems.beyond_the_course.velocity_control import VelocityControl
+from gz_course.sim.gz.sim.systems.velocity_control import VelocityControl
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 from gz_course.tests.sim.gz.sim.systems.motion_world import arm, joint, link, plugin, world
