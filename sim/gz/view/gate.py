@@ -1,9 +1,9 @@
 """The gate in front of Studio's web server: one address, a token in it, and nothing for anybody else.
 
 Studio listens on all interfaces and serves whoever asks. Here it gets a socket that is bound already (loopback unless
-another address is asked for), and every request passes `Gate.answer` first. All paths begin with the token; a short
-script, put into Studio's page, makes the page ask below that path. So no cookie is needed, which a browser would send
-to other ports of this machine and refuse to a page in a frame.
+another address is asked for), and every request passes `Gate.answer` first. All paths begin with the token; the script
+of `page.py` makes the page ask below that path. So no cookie is needed, which a browser would send to other ports of
+this machine and refuse to a page in a frame.
 
 Studio has no hook for this: `install` replaces `bind_public_socket`, `bind_loopback_socket` and `serve` in its module
 `web_server`, and raises StudioChanged if a later version has no such names or does not use them.
@@ -17,13 +17,13 @@ from __future__ import annotations
 
 import functools
 import hmac
-import html
 import os
 import secrets
 import socket
 import threading
 import time
 from collections import OrderedDict
+from collections.abc import Callable
 from http import HTTPStatus
 from pathlib import Path
 from types import ModuleType
@@ -34,6 +34,9 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.frames import Frame, Opcode
 from websockets.http11 import Request, Response
+
+from gz_course.sim.gz.view.page import STILL, TOLD, furnished
+from gz_course.sim.page_policy import policy
 
 _MOST_WAITING = 64
 """Connections that may be open without having asked for anything; the oldest ends when there is one more."""
@@ -54,46 +57,12 @@ _HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Embedder-Policy": "require-corp",
     "Cross-Origin-Resource-Policy": "cross-origin",
-    "Content-Security-Policy": f"frame-ancestors {_FRAMED_BY}",
+    "Content-Security-Policy": policy("", f"frame-ancestors {_FRAMED_BY}"),
     "Document-Isolation-Policy": "isolate-and-require-corp",
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
 """Headers of all answers; an empty one is taken out."""
-_SCRIPT = """<script>
-(() => {
-  const base = location.pathname.replace(/[^/]*$/, "");
-  const plainFetch = window.fetch.bind(window);
-  window.fetch = (what, options) =>
-    plainFetch(typeof what === "string" && what.startsWith("/") ? base + what.slice(1) : what, options);
-  const PlainSocket = window.WebSocket;
-  window.WebSocket = class extends PlainSocket {
-    constructor(url, protocols) {
-      const there = new URL(url, location.href);
-      there.pathname = base + there.pathname.slice(1);
-      super(there.href, protocols || []);
-    }
-  };
-  for (const name of ["sessionStorage", "localStorage"]) {  // a page in a frame of another site has none
-    try { window[name].length; } catch {
-      const kept = new Map();
-      Object.defineProperty(window, name, {value: {
-        getItem: (key) => kept.has(key) ? kept.get(key) : null,
-        setItem: (key, value) => { kept.set(key, String(value)); },
-        removeItem: (key) => { kept.delete(key); },
-      }});
-    }
-  }
-  if (!window.crossOriginIsolated) addEventListener("DOMContentLoaded", () => {
-    const said = document.createElement("p");
-    said.style.cssText = "position:absolute;top:0;margin:1em;color:#fff;font:16px sans-serif;z-index:9";
-    said.innerHTML = 'This browser shows the world only in a tab of its own: ' +
-      '<a style="color:#8cf" target="_blank" rel="noopener">open it</a>.';
-    said.querySelector("a").href = location.href;
-    document.body.appendChild(said);
-  });
-})();
-</script>"""
 
 
 class StudioChanged(RuntimeError):
@@ -106,6 +75,8 @@ class Gate:
     def __init__(self, bind: str = "127.0.0.1", port: int = 0, title: str = "gz sim") -> None:
         """Bind a socket. Raises OSError if the address does not belong to this machine or the port is taken."""
         self.title = title
+        self.tell: Callable[[bool], str] = lambda still: "{}"
+        """What the page reads aloud, as JSON; it is told whether the reader wants motion reduced."""
         family = socket.AF_INET6 if ":" in bind else socket.AF_INET
         self.socket = socket.socket(family, socket.SOCK_STREAM)
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -166,11 +137,13 @@ class Gate:
             return _response(HTTPStatus.FORBIDDEN, "Another page asks for this one.\n")
         if rest[0] == "drop":
             return _response(HTTPStatus.FORBIDDEN, "Models come into a world with the panel Resource Spawner.\n")
+        if rest[0] == TOLD:
+            return _response(HTTPStatus.OK, self.tell(query == STILL), {"Cache-Control": "no-store"})
         request.path = f"/{rest[0]}" + (f"?{query}" if query else "")
         response: Response | None = studio(connection, request)
         self._waiting.pop(connection, None)
         if response is not None and response.status_code == HTTPStatus.OK and rest[0] in ("", "index.html"):
-            self._name(response)
+            self._furnish(response)
         return response
 
     def _takes(self, code: str, connection: Any) -> bool:
@@ -186,13 +159,12 @@ class Gate:
         self._once = None
         return True
 
-    def _name(self, page: Response) -> None:
-        """Put the script and the title into Studio's page."""
-        text = page.body.decode()
-        if "<head>" not in text:
-            raise StudioChanged("the page of MuJoCo Studio has no <head>")
-        text = text.replace("<head>", f"<head>{_SCRIPT}", 1)
-        text = text.replace("<title>MuJoCo Web Viewer</title>", f"<title>{html.escape(self.title)}</title>", 1)
+    def _furnish(self, page: Response) -> None:
+        """Put what `page.py` adds into Studio's page."""
+        try:
+            text = furnished(page.body.decode(), self.title)
+        except ValueError as error:
+            raise StudioChanged(str(error)) from None
         page.body = text.encode()
         del page.headers["Content-Length"]
         page.headers["Content-Length"] = str(len(page.body))

@@ -79,6 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return bool(super().prepare_next_frame())
 
     window = Window(link)
+    gate.tell = window.told
     try:
         install(gate, web_server)
         viewer = WebViewer(viewer_protocol.ViewerConfig(gfx="web"), viewer_end, plugins=[window])

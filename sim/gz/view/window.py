@@ -20,16 +20,20 @@ from mujoco.studio.app import inputs
 from mujoco.studio.dear_imgui import dear_imgui as imgui
 
 from gz_course.sim.gz.view import panels
+from gz_course.sim.gz.view.description import Description
 from gz_course.sim.gz.view.dragging import Dragging
 from gz_course.sim.gz.view.entities import Entity, link_of_body, models_of
+from gz_course.sim.gz.view.keyboard import Keyboard
 from gz_course.sim.gz.view.world_link import WorldLink
 
-_LEFT_WIDTH, _RIGHT_WIDTH, _TOP_HEIGHT, _BOTTOM_HEIGHT = 250.0, 300.0, 40.0, 34.0
+_LEFT_WIDTH, _RIGHT_WIDTH, _TOP_HEIGHT, _BOTTOM_HEIGHT = 250.0, 320.0, 40.0, 34.0
 _NARROW = 700.0
 """Width [pixels] of a page, for example a frame in a notebook, that opens without the panels at its sides."""
+_TALL, _BELOW_HEIGHT = 620.0, 330.0
+"""Height [pixels] of a narrow page, for example beside a notebook, that has tools below the picture, and theirs."""
 _LARGEST = 50.0
 """Radius [m] from which on a shape is scenery, and does not move the camera away."""
-_GREY = imgui.Vec4(0.5, 0.5, 0.5, 1.0)
+_GREY = imgui.Vec4(0.33, 0.33, 0.33, 1.0)
 _DOCKS = int(imgui.DockNodeFlags.PassthruCentralNode) | int(imgui.DockNodeFlags.AutoHideTabBar)
 _DOCK_SPACE = 1 << 10
 """ImGuiDockNodeFlags_DockSpace, which the bindings leave out."""
@@ -63,12 +67,15 @@ class Window(plugin.ViewerPlugin):
         self.selected = ""
         self.followed = ""
         self.models: dict[str, Entity] = {}
-        self.typing = False
-        """True while a panel takes the keys for itself."""
         self.hidden: set[str] = set()
         """The titles of the panels that were closed."""
+        self._to_front = ""
         self._ux_state = ux.UxState()
         self._dragging = Dragging(link)
+        self.keyboard = Keyboard(self)
+        self.description = Description()
+        self.still = False
+        """True if the reader of the page wants motion reduced."""
         self._laid_out = (0.0, 0.0)
         found = [importlib.import_module(f"{panels.__name__}.{m.name}") for m in pkgutil.iter_modules(panels.__path__)]
         made: list[Panel] = [module.Panel(self) for module in found]
@@ -93,6 +100,18 @@ class Window(plugin.ViewerPlugin):
         perturb = self.viewer.perturb
         perturb.select = entity.bodies[0] if entity is not None and entity.bodies else 0
         perturb.localpos[:] = 0.0
+
+    def show_panel(self, title: str) -> None:
+        """Bring a panel to the front, also a closed one."""
+        self.hidden.discard(title)
+        self._to_front = title
+
+    def told(self, still: bool) -> str:
+        """Return what the page reads aloud, as JSON; `still` says that its reader wants motion reduced."""
+        if still and not self.still:
+            self.panel("Entity tree").follows = False
+        self.still = still
+        return self.description.as_json()
 
     def entity(self, name: str) -> Entity | None:
         """Return a model or link of the world; None if it is not there (any more)."""
@@ -162,13 +181,10 @@ class Window(plugin.ViewerPlugin):
         if viewer.camera.type == int(mujoco.mjtCamera.mjCAMERA_TRACKING):
             body = viewer.camera.trackbodyid
             self.followed = self.followed or link_of_body(self.model, body)
-        if not self.typing and not imgui.GetIO().WantCaptureKeyboard:
-            if imgui.IsKeyChordPressed(imgui.Key.Space):
-                self.toggle_pause()
-            elif imgui.IsKeyChordPressed(imgui.Key.Escape):
-                self.select("")
-                self.follow("")
-        self._dragging.update(self.model, self.data, viewer.perturb, paused=self.link.paused)
+        self.keyboard.update()
+        along = self.keyboard.push_along
+        self._dragging.update(self.model, self.data, viewer.perturb, along, paused=self.link.paused)
+        self.description.update(self)
         viewer.extra_geoms[:] = [geom for panel in self.panels for geom in panel.geoms()]
 
     def toggle_pause(self) -> None:
@@ -183,6 +199,9 @@ class Window(plugin.ViewerPlugin):
         for panel in self.panels:
             if panel.TITLE in self.hidden:
                 continue
+            if self._to_front == panel.TITLE:
+                imgui.SetNextWindowFocus()
+                self._to_front = ""
             shown, opened = imgui.Begin(panel.TITLE, True, _BAR if panel.PLACE == "top" else 0)
             try:
                 if shown:
@@ -195,6 +214,8 @@ class Window(plugin.ViewerPlugin):
             if not opened:
                 self.hidden.add(panel.TITLE)
         imgui.Begin("Status", None, _BAR)
+        imgui.TextColored(_GREY, "H: keys  ")
+        imgui.SameLine()
         imgui.TextUnformatted(self.link.said)
         if self.selected:
             imgui.SameLine()
@@ -209,8 +230,10 @@ class Window(plugin.ViewerPlugin):
         size = (display.x, display.y)
         if size == self._laid_out or min(size) < 200.0:
             return
+        below = size[0] < _NARROW and size[1] >= _TALL
         if self._laid_out == (0.0, 0.0) and size[0] < _NARROW:
-            self.hidden = {panel.TITLE for panel in self.panels if panel.PLACE != "top"}
+            tools = [panel.TITLE for panel in self.panels if panel.PLACE == "right"]
+            self.hidden = {panel.TITLE for panel in self.panels if panel.PLACE != "top"} - set(tools[:below])
         self._laid_out = size
         imgui.DockBuilderRemoveNode(space)
         imgui.DockBuilderAddNode(space, _DOCKS | _DOCK_SPACE)
@@ -219,7 +242,8 @@ class Window(plugin.ViewerPlugin):
         bottom, rest = imgui.DockBuilderSplitNode(rest, imgui.Dir.Down, _BOTTOM_HEIGHT / (size[1] - _TOP_HEIGHT))
         width = size[0]
         left, rest = imgui.DockBuilderSplitNode(rest, imgui.Dir.Left, min(0.3, _LEFT_WIDTH / width))
-        right, rest = imgui.DockBuilderSplitNode(rest, imgui.Dir.Right, min(0.4, _RIGHT_WIDTH / width))
+        side, share = (imgui.Dir.Down, _BELOW_HEIGHT / size[1]) if below else (imgui.Dir.Right, _RIGHT_WIDTH / width)
+        right, rest = imgui.DockBuilderSplitNode(rest, side, min(0.6 if below else 0.4, share))
         nodes = {"top": top, "left": left, "right": right}
         for panel in self.panels:
             imgui.DockBuilderDockWindow(panel.TITLE, nodes[panel.PLACE])

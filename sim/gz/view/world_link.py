@@ -66,6 +66,11 @@ class WorldLink:
         self._fetcher = threading.Thread(target=self._fetch, daemon=True)
 
     @property
+    def waits(self) -> bool:
+        """Return whether the world has not answered every request yet."""
+        return self._queued > 0
+
+    @property
     def topic(self) -> str:
         return valid_topic(f"/world/{self.world}")
 

@@ -1,7 +1,7 @@
 """Rerun's viewer as a child process: a window, or a page for a browser, which only this machine can reach.
 
 The binary is started directly, because its Python wrapper leaves it running when it is killed. `CI=1` is the only
-switch that keeps it from collecting usage data. A page needs nothing from the internet.
+switch that keeps it from collecting usage data; a page is kept from it by `page_server.py`.
 
 Source: `rerun --help` of rerun-sdk 0.41
 """
@@ -17,15 +17,15 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 import urllib.parse
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from types import TracebackType
 
+from gz_course.sim import machine_clock
 from gz_course.sim.child_end import await_end
+from gz_course.sim.show.rviz2.page_server import LOOPBACK, PageServer
 
-LOOPBACK = "127.0.0.1"
 START_S = 60.0  # [s] for the viewer to start up
 GRACE_S = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 LOOK_AGAIN_S = 0.02
@@ -70,10 +70,11 @@ class Viewer:
     def __init__(self, *, web: bool) -> None:
         """Start it. Raises ViewerError if it does not start."""
         self.web = web
-        self._port, self._page_port = _free_ports()
+        self._port, self._files_port = _free_ports()
+        self._page: PageServer | None = None
         options = ["--bind", LOOPBACK, "--port", str(self._port), "--server-memory-limit", "500MB"]
         if web:
-            options += ["--serve-web", "--web-viewer-port", str(self._page_port)]
+            options += ["--serve-web", "--web-viewer-port", str(self._files_port)]
             options += ["--cors-allow-origin", f"http://{LOOPBACK}:*"]
         else:
             options += ["--hide-welcome-screen", "--expect-data-soon"]
@@ -90,6 +91,8 @@ class Viewer:
         self._reader.start()
         try:
             self._wait_until_it_answers()
+            if web:
+                self._page = PageServer(self._files_port)
         except BaseException:
             self.close()
             raise
@@ -106,7 +109,8 @@ class Viewer:
 
     def address_of(self, url: str) -> str:
         """Return the page that shows the recording at a URL."""
-        return f"http://{LOOPBACK}:{self._page_port}/?url={urllib.parse.quote(url, safe='')}"
+        assert self._page is not None, "it is a window"
+        return f"http://{LOOPBACK}:{self._page.port}/?url={urllib.parse.quote(url, safe='')}"
 
     @property
     def is_running(self) -> bool:
@@ -128,6 +132,8 @@ class Viewer:
 
     def close(self) -> None:
         """End it as Ctrl-C would, if necessary with SIGTERM and SIGKILL."""
+        if self._page is not None:
+            self._page.close()
         for escalation in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self._process.pid, escalation)
@@ -145,15 +151,14 @@ class Viewer:
                 del self._log[:-4000]
 
     def _wait_until_it_answers(self) -> None:
-        end = time.monotonic() + START_S
-        pause = threading.Event()
-        for port in (self._port, self._page_port) if self.web else (self._port,):
+        end = machine_clock.now() + START_S
+        for port in (self._port, self._files_port) if self.web else (self._port,):
             while True:
                 with contextlib.suppress(OSError), socket.create_connection((LOOPBACK, port), timeout=1.0):
                     break
-                if not self.is_running or time.monotonic() > end:
+                if not self.is_running or machine_clock.now() > end:
                     raise ViewerError(f"Rerun's viewer does not start: {self._last_words()}")
-                pause.wait(LOOK_AGAIN_S)
+                machine_clock.pause(LOOK_AGAIN_S)
 
     def __enter__(self) -> Viewer:
         return self

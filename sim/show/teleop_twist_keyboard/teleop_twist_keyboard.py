@@ -18,8 +18,10 @@ import os
 import signal
 import sys
 import time
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim.postponed_signal import postponed
 from gz_course.sim.ros.ros_program.errors import UsageError
 from gz_course.sim.ros.ros_program.parameters import read_parameters
 from gz_course.sim.ros.ros_program.program import run
@@ -82,9 +84,11 @@ def checked(values: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
-def _end(*_: object) -> None:
-    for number in ENDS:  # a second signal must not interrupt the last message
-        signal.signal(number, signal.SIG_IGN)
+def _end(number: int, frame: FrameType | None) -> None:
+    if postponed(number, frame):
+        return
+    for each in ENDS:  # a second signal must not interrupt the last message
+        signal.signal(each, signal.SIG_IGN)
     raise KeyboardInterrupt
 
 

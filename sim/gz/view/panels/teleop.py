@@ -118,11 +118,12 @@ class Panel:
         stick = self._pad()
         if stick == (0.0, 0.0) and self.keys and not imgui.GetIO().WantCaptureKeyboard:
             stick = self._held_keys()
-        self._window.typing = self.keys and any(stick)
         self.drive(*stick)
 
     def _held_keys(self) -> tuple[float, float]:
         ahead = left = 0.0
+        if imgui.GetIO().KeyShift:
+            return 0.0, 0.0
         for (forward, turn), keys in _KEYS.items():
             if any(imgui.IsKeyDown(key) for key in keys):
                 ahead, left = ahead + forward, left + turn

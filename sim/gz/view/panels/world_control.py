@@ -13,8 +13,8 @@ from mujoco.studio.dear_imgui import dear_imgui as imgui
 from gz_course.sim.gz.view.window import Window
 
 _MOST_STEPS = 10_000
-_GREEN = imgui.Vec4(0.13, 0.55, 0.13, 1.0)
-_ORANGE = imgui.Vec4(0.85, 0.42, 0.0, 1.0)
+_GREEN = imgui.Vec4(0.1, 0.48, 0.1, 1.0)
+_ORANGE = imgui.Vec4(0.7, 0.33, 0.0, 1.0)
 _WHITE = imgui.Vec4(1.0, 1.0, 1.0, 1.0)
 _BUTTON = imgui.Vec2(84.0, 0.0)
 

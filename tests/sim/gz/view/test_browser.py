@@ -5,13 +5,11 @@ from __future__ import annotations
 import io
 import os
 import re
-import shutil
 import signal
 import socket
 import subprocess
 import sys
 import threading
-import time
 import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -27,12 +25,9 @@ from gz_course.sim.gz.msgs.entity_factory_pb2 import EntityFactory
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.msgs.world_stats_pb2 import WorldStatistics
 from gz_course.sim.gz.transport import Node
+from gz_course.tests.browser import DEADLINE, ELSEWHERE, TRY, chromium, eventually, needs_chromium, watched_chromium
 
-CHROMIUM = shutil.which("chromium")
 SIZE = {"width": 800, "height": 480}
-FLAGS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-DEADLINE = 500.0
-"""Time [s] to wait for anything; without a GPU a busy machine draws a picture in many seconds."""
 USER = "/user/alice/"
 PLAY, STEP, RESET = (45, 20), (107, 20), (238, 20)
 MAGENTA = """<sdf version='1.10'><model name='sign'><static>true</static><link name='l'><visual name='v'>
@@ -42,16 +37,8 @@ MAGENTA = """<sdf version='1.10'><model name='sign'><static>true</static><link n
 pytestmark = [
     pytest.mark.proof,
     pytest.mark.timeout(1800),
-    pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium here: apt-get install chromium"),
+    needs_chromium,
 ]
-
-
-def eventually(condition: Callable[[], Any], what: str) -> Any:
-    pause, end = threading.Event(), time.monotonic() + DEADLINE
-    while not (found := condition()):
-        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
-        pause.wait(0.05)
-    return found
 
 
 @pytest.fixture
@@ -109,18 +96,15 @@ def hub(tmp_path: Path) -> Iterator[str]:
 
 @pytest.fixture
 def browser() -> Iterator[Any]:
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield browser
-        browser.close()
+    with chromium() as running:
+        yield running
 
 
 class Seen:
     """A page, and what can be seen on it."""
 
-    def __init__(self, browser: Any, address: str) -> None:
-        self.page = browser.new_page(viewport=SIZE)
+    def __init__(self, browser: Any, address: str, **wishes: str) -> None:
+        self.page = browser.new_page(viewport=SIZE, **wishes)
         self.page.set_default_timeout(DEADLINE * 1000)
         self.page.goto(address)
 
@@ -133,6 +117,14 @@ class Seen:
         """Return the middle of the pixels of a colour, empty if there are few."""
         found = np.argwhere(channels(*np.moveaxis(self.picture(), 2, 0)))
         return found.mean(axis=0) if len(found) >= 8 else np.zeros(0)
+
+
+def green_at(page: Any, place: tuple[int, int]) -> bool:
+    """Tell whether something green is drawn beside this place [pixels]."""
+    shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    x, y = place
+    r, g, b = np.asarray(shot.crop((x - 40, y - 8, x + 40, y + 8))).astype(int).reshape(-1, 3).mean(axis=0)
+    return bool(g > r + 30 and g > b + 30)
 
 
 def blue(r: Any, g: Any, b: Any) -> Any:
@@ -227,6 +219,56 @@ def test_a_notebook_may_frame_the_page_and_a_stranger_may_not(
     assert tried == "refused", "even with the token"
     server.shutdown()
     server.server_close()
+
+
+def test_the_page_asks_no_other_machine(gz: Callable[..., tuple[subprocess.Popen[str], str]]) -> None:
+    _, address = gz("empty.sdf")
+    with watched_chromium() as (browser, outside):
+        page = browser.new_page(viewport=SIZE)
+        page.set_default_timeout(DEADLINE * 1000)
+        said: list[str] = []
+        page.on("console", lambda message: said.append(message.text))
+        page.goto(address)
+        eventually(
+            lambda: page.wait_for_timeout(50) or any("State WebSocket connected" in x for x in said), "the world"
+        )
+        assert page.title() == "empty" and page.locator("html").get_attribute("lang") == "en"
+        page.evaluate(TRY)
+        assert outside.asked == set()
+        refused = [each for each in said if ELSEWHERE in each and "Content Security Policy" in each]
+        assert refused, "what the page tried was kept back by its policy"
+
+
+def test_the_world_is_heard_and_obeys_keys(gz: Callable[..., tuple[subprocess.Popen[str], str]], browser: Any) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    _, address = gz("empty.sdf")
+    page = Seen(browser, address, reduced_motion="reduce").page
+    heard = page.locator("[role=status]")
+
+    def says(words: str) -> None:
+        eventually(lambda: page.wait_for_timeout(50) or words in heard.text_content(), f"the page says {words}")
+
+    says("World empty, paused.")
+    eventually(lambda: green_at(page, PLAY), "the button Play is drawn")
+    page.keyboard.press("Space", delay=500)
+    says("World empty, running.")
+    page.keyboard.press("n", delay=500)
+    says("Step: pause the world first, with Space.")
+    page.keyboard.press("Space", delay=500)
+    says("World empty, paused.")
+    page.keyboard.press("F2", delay=500)
+    says("Panel World control")
+    page.keyboard.press("Escape", delay=500)
+    says("The keys are those of the world again.")
+    assert "Simulated time" in page.locator("#whole").text_content()
+    assert page.locator("li", has_text="Backspace: reset the world").count() == 1
+    focused = []
+    for _ in range(2):
+        page.keyboard.press("Tab")
+        focused.append(page.evaluate("document.activeElement.id"))
+    assert focused == ["canvas", ""], "Tab leads to the picture and out of the page"
+    found = axe.run(page)
+    assert found.response["violations"] == [], found.generate_report()
 
 
 def test_behind_jupyter_server_proxy_the_world_is_seen_and_obeys(

@@ -21,7 +21,10 @@ from websockets.sync.client import connect
 from gz_course.sim.gz.view import gate as gate_module
 from gz_course.sim.gz.view.gate import Gate, OwnSocket, StudioChanged, check, install, user_of_peer
 
-PAGE = b"<html><head><title>MuJoCo Web Viewer</title></head></html>"
+PAGE = (
+    b"<html><head><title>MuJoCo Web Viewer</title></head>"
+    b'<body><canvas id="canvas" oncontextmenu="x"></canvas></body></html>'
+)
 DEADLINE = 60
 
 
@@ -107,6 +110,8 @@ def test_the_address_opens_the_page(gate: Gate) -> None:
     response, body = get(gate, urlsplit(gate.address).path)
     assert response.status == 200
     assert b"<title>&lt;room&gt;</title>" in body
+    assert b'<main><h1 class="heard">&lt;room&gt;</h1><canvas id="canvas" role="application"' in body
+    assert b'oncontextmenu="x"></canvas>' in body and b'role="status"' in body
     assert b"window.WebSocket" in body and int(response.headers["Content-Length"]) == len(body)
     assert "frame-ancestors 'self' http://localhost:*" in response.headers["Content-Security-Policy"]
     assert response.headers.get_all("Cross-Origin-Embedder-Policy") == ["require-corp"]

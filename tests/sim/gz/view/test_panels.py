@@ -2,113 +2,18 @@
 
 from __future__ import annotations
 
-import threading
-import time
-import uuid
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
-from mujoco.studio import ux
 from mujoco.studio.dear_imgui import dear_imgui as imgui
 
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.physics.geoms import COLLISION_GROUP
-from gz_course.sim.gz.sim.sdf.description import Plugin
-from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.server import Server
-from gz_course.sim.gz.sim.world import World
-from gz_course.sim.gz.transport import Node, NodeOptions, Scope
 from gz_course.sim.gz.view.entities import models_of
 from gz_course.sim.gz.view.panels.world_control import times
-from gz_course.sim.gz.view.window import Window
-from gz_course.sim.gz.view.world_link import WorldLink
-
-DEADLINE = 120.0
-
-
-def eventually(condition: Callable[[], Any], what: str) -> Any:
-    pause, end = threading.Event(), time.monotonic() + DEADLINE
-    while not (found := condition()):
-        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
-        pause.wait(0.005)
-    return found
-
-
-class Shown:
-    """A window without a browser, and the world that it shows, which runs in a thread."""
-
-    def __init__(self) -> None:
-        options = NodeOptions(scope=Scope.PROCESS, partition=uuid.uuid4().hex)
-        name = "gz_course::systems::ViewBroadcaster"
-        element = Element("plugin", {"name": name, "filename": ""}, file="test")
-        self.world = World.load("lidar_room.sdf", server_plugins=[Plugin(name, "", element)])
-        self.server = Server(self.world, Node(options))
-        self.server.paused = True
-        self.stop = threading.Event()
-        pace = {"stop": self.stop, "real_time_factor": 1.0}
-        self.thread = threading.Thread(target=self.server.run, kwargs=pace, daemon=True)
-        self.thread.start()
-        self.node = Node(options)
-        self.viewer: Any = SimpleNamespace(
-            camera=mujoco.MjvCamera(),
-            perturb=mujoco.MjvPerturb(),
-            vis_options=mujoco.MjvOption(),
-            extra_geoms=[],
-            render_flags=ux.RenderFlags(),
-            client_camera=None,
-            camera_index=0,
-            upload_image=lambda *what: 1,
-            model=None,
-            data=None,
-        )
-        self.link = WorldLink(Node(options), self.take_model, self.take_state)
-        self.window = Window(self.link)
-        self.window.viewer = self.viewer
-        assert self.link.find_world() == "lidar_room"
-        self.link.follow("lidar_room")
-        self.has("robot")
-        eventually(lambda: self.link.stats.HasField("header"), "statistics")
-
-    def take_model(self, model: mujoco.MjModel) -> None:
-        self.viewer.model, self.viewer.data = model, mujoco.MjData(model)
-        mujoco.mj_forward(model, self.viewer.data)
-        self.window.on_model(None)  # type: ignore[arg-type]
-
-    def take_state(self, state: np.ndarray) -> None:
-        self.state = state
-
-    def has(self, name: str) -> Any:
-        return eventually(lambda: self.window.entity(name), f"{name} appears")
-
-    def close(self) -> None:
-        self.window.close()
-        self.link.close()
-        self.stop.set()
-        self.thread.join(DEADLINE)
-        self.world.close()
-        for node in (self.node, self.link.node, self.server.node):
-            node.close()
-
-
-@pytest.fixture(scope="module")
-def running() -> Iterator[Shown]:
-    shown = Shown()
-    yield shown
-    shown.close()
-
-
-@pytest.fixture
-def shown(running: Shown) -> Shown:
-    """Return the world as it starts: paused at time zero."""
-    running.link.pause()
-    running.link.reset()
-    eventually(lambda: running.link.stats.paused and running.world.iterations == 0, "a paused world at its start")
-    return running
+from gz_course.tests.sim.gz.view.conftest import Shown, draw, eventually
 
 
 def test_play_pause_step_and_reset_are_those_of_the_world(shown: Shown) -> None:
@@ -207,15 +112,15 @@ def test_a_drag_pushes_a_running_world_and_moves_a_paused_one(shown: Shown) -> N
     perturb.refquat[:] = shown.viewer.data.xquat[perturb.select]
     perturb.scale = perturb.localmass = 1.0
     before = shown.world.truth.pose("robot").position
-    dragging.update(shown.viewer.model, shown.viewer.data, perturb, paused=True)
+    dragging.update(shown.viewer.model, shown.viewer.data, perturb, np.zeros(3), paused=True)
     eventually(lambda: shown.world.truth.pose("robot").position[1] > before[1] + 0.5, "it is elsewhere")
 
     sent: list[Any] = []
     shown.link.drag = lambda link, push: sent.append((link, push.copy()))  # type: ignore[method-assign]
     dragging._next = 0.0
-    dragging.update(shown.viewer.model, shown.viewer.data, perturb, paused=False)
+    dragging.update(shown.viewer.model, shown.viewer.data, perturb, np.zeros(3), paused=False)
     perturb.active = 0
-    dragging.update(shown.viewer.model, shown.viewer.data, perturb, paused=False)
+    dragging.update(shown.viewer.model, shown.viewer.data, perturb, np.zeros(3), paused=False)
     del shown.link.drag  # type: ignore[method-assign]
     (link, push), (_, end) = sent
     assert link == "robot::base_link" and push[1] > 0.1
@@ -241,28 +146,6 @@ def test_the_tree_has_static_models_and_all_links(shown: Shown) -> None:
     assert found["pillar"].bodies == [] and len(found["pillar"].geoms) == 2
 
 
-@pytest.fixture
-def pictures(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
-    """Let panels be drawn without a browser."""
-    monkeypatch.chdir(tmp_path)  # where a context leaves its settings when it ends, as imgui.ini
-    context = imgui.CreateContext()
-    imgui.SetCurrentContext(context)
-    ux.set_imgui_context(context)
-    io = imgui.GetIO()
-    io.DisplaySize = imgui.Vec2(1280, 800)
-    io.ConfigFlags = int(io.ConfigFlags) | int(imgui.ConfigFlags.DockingEnable)
-    io.BackendFlags = int(io.BackendFlags) | int(imgui.BackendFlags.RendererHasTextures)
-    yield
-    imgui.DestroyContext(context)
-
-
-def draw(window: Window) -> None:
-    imgui.NewFrame()
-    window.on_update(None)  # type: ignore[arg-type]
-    window.on_build_gui(None)  # type: ignore[arg-type]
-    imgui.Render()
-
-
 def test_every_panel_is_drawn(shown: Shown, pictures: None) -> None:
     window = shown.window
     window.select("robot::lidar_link")
@@ -275,6 +158,29 @@ def test_every_panel_is_drawn(shown: Shown, pictures: None) -> None:
     window.hidden.clear()
     assert len(shown.viewer.extra_geoms) == 42, "the grid"
     window.select("")
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "kept"), [(1280, 800, {"Entity tree", "Teleop"}), (520, 780, {"Teleop"}), (680, 520, set())]
+)
+def test_a_narrow_page_keeps_the_stick_if_it_is_tall(
+    shown: Shown, pictures: None, width: int, height: int, kept: set[str]
+) -> None:
+    window = shown.window
+    window._laid_out, window.hidden = (0.0, 0.0), set()
+    imgui.GetIO().DisplaySize = imgui.Vec2(width, height)
+    drawn = {}
+    teleop = window.panel("Teleop")
+    build = teleop.build
+    teleop.build = lambda: (drawn.update(at=imgui.GetCursorScreenPos().y), build())
+    for _ in range(3):
+        draw(window)
+    del teleop.build
+    assert {"Entity tree", "Teleop"} - window.hidden == kept
+    assert bool(drawn) == ("Teleop" in kept)
+    if kept == {"Teleop"}:
+        assert drawn["at"] > 0.4 * height, "the stick is below the picture"
+    window.hidden.clear()
 
 
 def test_a_panel_that_breaks_down_is_closed(shown: Shown, pictures: None, monkeypatch: pytest.MonkeyPatch) -> None:
