@@ -18,7 +18,8 @@ from gz_course.sim.bridge.ros_gz_bridge.finding import Finding
 from gz_course.sim.bridge.ros_gz_bridge.names import gz_name_fault, ros_name_fault
 from gz_course.sim.bridge.ros_gz_bridge.type_pairs import UnknownPairError, canonical_gz_type, find_service, pairs
 
-_MARKS = {"@": Direction.BIDIRECTIONAL, "[": Direction.GZ_TO_ROS, "]": Direction.ROS_TO_GZ}
+MARKS = {"@": Direction.BIDIRECTIONAL, "[": Direction.GZ_TO_ROS, "]": Direction.ROS_TO_GZ}
+MARK_OF = {direction: mark for mark, direction in MARKS.items()}
 _SYNTAX = "TOPIC@ROS_TYPE@GZ_TYPE, with [ (Gazebo to ROS) or ] (ROS to Gazebo) in place of the second @"
 _SERVICE_SYNTAX = "SERVICE@ROS_TYPE or SERVICE@ROS_TYPE@GZ_REQUEST_TYPE@GZ_REPLY_TYPE"
 
@@ -63,7 +64,7 @@ def _read(text: str, findings: list[Finding], lazy: bool = False) -> BridgeEntry
         return None
     if warning := old_type_warning(gz_type):
         findings.append(Finding(where, warning, warning=True))
-    return BridgeEntry(topic, topic, ros_type, canonical_gz_type(gz_type), _MARKS[mark], lazy=lazy, source=where)
+    return BridgeEntry(topic, topic, ros_type, canonical_gz_type(gz_type), MARKS[mark], lazy=lazy, source=where)
 
 
 def _service(text: str, where: str) -> tuple[ServiceEntry | None, list[Finding]]:

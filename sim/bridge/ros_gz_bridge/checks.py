@@ -61,8 +61,7 @@ def _repeated(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -
         for way, used in (("ros", entry.direction.to_ros), ("gz", entry.direction.to_gz)):
             first = seen.setdefault((way, *entry.same_route), entry) if used else entry
             if first is not entry:
-                sentence = f"bridges {entry.ros_topic} again (first: {first.source}); keep one"
-                yield Finding(entry.source, sentence, tolerated=True)
+                yield _warning(entry, f"bridges {entry.ros_topic} again (first: {first.source}); keep one")
                 break
     names: dict[str, ServiceEntry] = {}
     for service in services:
@@ -172,22 +171,6 @@ def _poses_without_frames(topics: Sequence[BridgeEntry], services: Sequence[Serv
 
 
 @_check
-def _static_transforms(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
-    """Report a bridge of /tf_static that nodes started later receive nothing from."""
-    for entry in topics:
-        if entry.ros_type != _TF or not entry.direction.to_ros or not entry.ros_topic.endswith("tf_static"):
-            continue
-        if entry.qos_profile is None:
-            yield _warning(
-                entry,
-                f"{entry.ros_topic} is sent once, and nodes that start later miss it; add -p "
-                f"qos_overrides.{entry.ros_topic}.publisher.durability:=transient_local",
-            )
-        if entry.lazy:
-            yield _warning(entry, f"{entry.ros_topic} is sent once, a lazy bridge connects too late to hear it")
-
-
-@_check
 def _lazy_commands(topics: Sequence[BridgeEntry], services: Sequence[ServiceEntry]) -> Iterator[Finding]:
     """Report lazy bridges to Gazebo: they save no computation and lose the first command."""
     for entry in topics:
@@ -225,3 +208,18 @@ def private_gz_names(topics: Iterable[BridgeEntry], services: Iterable[ServiceEn
     for source, name in names:
         if name.startswith("~"):
             yield Finding(source, f"the Gazebo name {name} works only with the parameter expand_gz_topic_names:=true")
+
+
+def volatile_static_transforms(topics: Iterable[BridgeEntry]) -> Iterator[Finding]:
+    """Yield a warning for each bridge to /tf_static without a QoS of its own: listeners of tf2 receive nothing from it.
+
+    It is not one of the checks, because only the caller knows parameters and remappings.
+    """
+    for entry in topics:
+        to_listeners = entry.ros_type == _TF and entry.direction.to_ros and entry.ros_topic.endswith("tf_static")
+        if to_listeners and entry.qos_profile is None:
+            yield _warning(
+                entry,
+                f"listeners of transforms ask {entry.ros_topic} for transient_local and receive nothing from this "
+                f"bridge; add -p qos_overrides.{entry.ros_topic}.publisher.durability:=transient_local",
+            )

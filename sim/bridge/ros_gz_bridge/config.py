@@ -18,7 +18,7 @@ import yaml
 
 from gz_course.sim.bridge.ros_gz_bridge.checks import check
 from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, ServiceEntry
-from gz_course.sim.bridge.ros_gz_bridge.entry_reader import KEYS, SERVICE_KEYS, EntryReader, Value, unknown_key
+from gz_course.sim.bridge.ros_gz_bridge.entry_reader import KEYS, MISSING, SERVICE_KEYS, EntryReader, Value, unknown_key
 from gz_course.sim.bridge.ros_gz_bridge.finding import ConfigError, Finding, raise_errors
 
 MAX_BYTES = 256 * 1024
@@ -116,34 +116,50 @@ def read_yaml(text: str | bytes, file_name: str = "<string>", *, lazy: bool = Fa
     config = Config()
     if further is not None:
         config.findings.append(Finding(_place(file_name, further), _SECOND_DOCUMENT, tolerated=True))
-    config.findings += _dashes(file_name, root.value)
     for node in root.value:
         config.add(_entry(file_name, node, config.findings, lazy))
+    if dash := _dash(file_name, root.value):
+        finding, parts = dash
+        caused = [each for each in config.findings if each.place in parts and f" {MISSING};" in each.sentence]
+        ends = any(each.fatal for each in caused)
+        config.findings = [each for each in config.findings if each not in caused]
+        config.findings.append(replace(finding, fatal=ends, tolerated=finding.tolerated and not ends))
     config.findings.extend(check(config.topics, config.services))
     config.findings.sort(key=lambda finding: int(finding.place.rpartition(":")[2]))  # by line
     return config
 
 
-def _dashes(file_name: str, nodes: list[yaml.Node]) -> list[Finding]:
-    """Return the finding that a dash stands before every key, so that each is an entry of its own; else nothing.
-
-    No bridge has a single key, so two of them in a row with different keys are parts of one.
-    """
-    alone = [_only_key(node) for node in nodes]
-    for node, one, other in zip(nodes, alone, alone[1:], strict=False):
-        if one in KEYS and other in KEYS and one != other:
+def _dash(file_name: str, nodes: list[yaml.Node]) -> tuple[Finding, set[str]] | None:
+    """Return the finding that a dash parts what is one bridge, and the places of the parts; None if no dash does."""
+    keys = [_keys(node) for node in nodes]
+    for above, one, below, other in zip(nodes, keys, nodes[1:], keys[1:], strict=False):
+        if not (one and other and {*one, *other} <= {*KEYS}) or set(one) & set(other):
+            continue
+        if len(one) == len(other) == 1:  # no bridge has a single key
             sentence = (
-                f"each dash begins another bridge, so '{one}' and '{other}' belong to two bridges here; write the dash "
-                "before the first key of a bridge only, and its other keys below that one, with two spaces for the dash"
+                f"each dash begins another bridge, so '{one[0]}' and '{other[0]}' belong to two bridges here; write the"
+                " dash before the first key of a bridge only, and its other keys below that one, with two spaces for "
+                "the dash"
             )
-            return [Finding(_place(file_name, node), sentence)]
-    return []
+            return Finding(_place(file_name, above), sentence), {_place(file_name, each) for each in nodes}
+        if _complete([*one, *other]) and not (_complete(one) and _complete(other)):
+            part = "what follows" if _complete(one) else "the one above"
+            sentence = (
+                f"the dash before '{other[0]}' begins another bridge, so {part} is a part of one; write two spaces in "
+                "its place"
+            )
+            finding = Finding(_place(file_name, below), sentence, tolerated=_complete(other))
+            return finding, {_place(file_name, above), _place(file_name, below)}
+    return None
 
 
-def _only_key(node: yaml.Node) -> str:
-    """Return the key of an entry with a single one; empty if it has none, or more."""
-    keys = [key for key, _ in node.value] if isinstance(node, yaml.MappingNode) else []
-    return str(keys[0].value) if len(keys) == 1 and isinstance(keys[0], yaml.ScalarNode) else ""
+def _keys(node: yaml.Node) -> list[str]:
+    pairs = node.value if isinstance(node, yaml.MappingNode) else []
+    return [str(key.value) for key, _ in pairs if isinstance(key, yaml.ScalarNode)]
+
+
+def _complete(keys: list[str]) -> bool:
+    return {"ros_type_name", "gz_type_name"} <= {*keys} and any(key.endswith("topic_name") for key in keys)
 
 
 def _only(place: str, sentence: str, *, fatal: bool = False) -> Config:

@@ -31,6 +31,7 @@ KEYS = (*_NAMES, "direction", "publisher_queue", "subscriber_queue", "lazy", "qo
 SERVICE_KEYS = ("service_name", "ros_type_name", "gz_req_type_name", "gz_rep_type_name")
 """The keys of a service."""
 _OF_SERVICES_ONLY = tuple(key for key in SERVICE_KEYS if key not in KEYS)
+MISSING = "is missing"  # what a sentence says of a key that a bridge needs
 _WRONG_PREFIXES = ("gz_msgs.", "ign_msgs.")
 _OLD_PREFIX = "ignition.msgs."
 _TRUE, _FALSE = ("true", "yes", "on", "y"), ("false", "no", "off", "n")
@@ -80,7 +81,7 @@ class EntryReader:
         ros_type, gz_type = self._text("ros_type_name"), self._text("gz_type_name")
         for key in ("ros_type_name", "gz_type_name"):
             if key not in self._values:
-                self._wrong(None, f"'{key}' is missing; a bridge needs both ros_type_name and gz_type_name")
+                self._wrong(None, f"'{key}' {MISSING}; a bridge needs both ros_type_name and gz_type_name")
         if ros_type and gz_type:
             self._types(ros_type, gz_type)
         direction = self._direction()
@@ -139,7 +140,7 @@ class EntryReader:
             )
             return None, None
         if not both and not sides:
-            self._wrong(None, "the topic is missing; give topic_name, or ros_topic_name and gz_topic_name", fatal=True)
+            self._wrong(None, f"the topic {MISSING}; give topic_name, or ros_topic_name and gz_topic_name", fatal=True)
             return None, None
         ros_key, gz_key = ("topic_name", "topic_name") if both else (sides[0], sides[-1])
         ros_topic = self._text(ros_key)
@@ -252,6 +253,8 @@ def unknown_key(key: str | None) -> str:
     """Return the sentence about a key that does not exist."""
     if key is None:
         return f"a key must be one of {', '.join(KEYS)}"
+    if key == "<<":
+        return "'<<' merges nothing in a bridge's file (ros_gz_bridge reads it with yaml-cpp); write the keys out"
     guess = did_you_mean(key, (*KEYS, *_OF_SERVICES_ONLY))
     return f"the key '{key}' is not known{guess or '; known keys: ' + ', '.join(KEYS)}"
 

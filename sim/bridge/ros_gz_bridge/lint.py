@@ -72,7 +72,7 @@ def _report(words: list[str], compat: bool) -> int:
 def _read(words: list[str]) -> list[Config]:
     """Return one configuration for each file, and one for all arguments."""
     from gz_course.sim.bridge.ros_gz_bridge.arguments import read_arguments
-    from gz_course.sim.bridge.ros_gz_bridge.checks import private_gz_names
+    from gz_course.sim.bridge.ros_gz_bridge.checks import private_gz_names, volatile_static_transforms
     from gz_course.sim.bridge.ros_gz_bridge.config import read_file
     from gz_course.sim.bridge.ros_gz_bridge.finding import Finding
 
@@ -85,6 +85,7 @@ def _read(words: list[str]) -> list[Config]:
             Finding(each.place, each.sentence, warning=True)
             for each in private_gz_names(config.topics, config.services)
         ]
+        config.findings += volatile_static_transforms(config.topics)
     return read
 
 

@@ -73,6 +73,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
     """Set the bridges up, wait for a signal, take them down."""
     from gz_course.sim.bridge.ros_gz_bridge import bridged_topics, parameters
     from gz_course.sim.bridge.ros_gz_bridge.bridge import Bridge, BridgeError, HeaderOverrides
+    from gz_course.sim.bridge.ros_gz_bridge.checks import volatile_static_transforms
     from gz_course.sim.bridge.ros_gz_bridge.watch import Watch, Watcher
     from gz_course.sim.gz.transport import Node as GzNode
     from gz_course.sim.gz.transport import NodeOptions
@@ -110,6 +111,7 @@ def _bridge(node: Node, texts: list[str]) -> int:
             )
         except BridgeError as error:
             raise UsageError(*error.errors) from None
+        config.findings += volatile_static_transforms(_volatile(config.topics, node))
         for sentence in [*parameters.advice(node, config.topics), *map(str, config.findings)]:
             logger.warning(sentence)
         bridged_topics.offer(node, config.topics)
@@ -168,6 +170,14 @@ def configured(node: Node, texts: list[str], given: Any, strict: bool) -> tuple[
     kept = config.tolerant()
     kept.findings = [finding for finding in config.findings if finding not in severe]
     return kept, [str(finding) for finding in severe]
+
+
+def _volatile(topics: list[BridgeEntry], node: Node) -> list[BridgeEntry]:
+    """Return the entries that no parameter makes transient local, with the name of the ROS topic after remapping."""
+    resolved = [replace(entry, ros_topic=node.resolve_topic_name(entry.ros_topic)) for entry in topics]
+    overrides = node.get_parameters_by_prefix("qos_overrides")
+    durable = {name for name, parameter in overrides.items() if parameter.value == "transient_local"}
+    return [each for each in resolved if f"{each.ros_topic}.publisher.durability" not in durable]
 
 
 def _expand(config: Config, node: Node) -> None:

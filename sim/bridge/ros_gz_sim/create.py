@@ -12,10 +12,10 @@ from __future__ import annotations
 import math
 import sys
 import threading
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gz_course.sim import machine_clock
 from gz_course.sim.bridge.ros_gz_sim.flags import Flag, read, usage, with_parameters
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros.ros_program.errors import Failure, UsageError, first_line
@@ -65,7 +65,7 @@ def _create(node: Node, arguments: list[str]) -> int:
     if len(given) > 1:
         raise UsageError(f"-{given[0]} and -{given[1]} are both given; give one of them")
     timeout = values.get("timeout", DEFAULT_TIMEOUT_S)
-    start = time.monotonic()
+    start = machine_clock.now()
     text = _text(node, given[0], values[given[0]], timeout)
     logger = node.get_logger()
     with GzNode() as gz_node:
@@ -196,7 +196,7 @@ def _from_topic(node: Node, topic: str, timeout: float) -> str:
         raise UsageError(f"-topic cannot be '{topic}': {first_line(error)}") from None
     node.get_logger().info(f"Waiting messages on topic [{name}].")
     with Spinner(node):
-        if heard.wait(timeout) and texts[0].strip():
+        if machine_clock.await_event(heard, timeout) and texts[0].strip():
             return texts[0]
         publishers = node.get_publishers_info_by_topic(name)
     if heard.is_set():

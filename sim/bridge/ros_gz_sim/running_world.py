@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import os
 import re
-import time
 from collections.abc import Callable
 
 from google.protobuf.message import Message
 
+from gz_course.sim import machine_clock
 from gz_course.sim.bridge.ros_gz_sim.flags import Flag
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.gz.sim.plugins.topics import valid_topic
@@ -27,7 +27,7 @@ _OF_WORLD = re.compile("/world/([^/]+)/")
 class RunningWorld:
     """A world that may still be starting; without a `name` the first world found.
 
-    `timeout` [s] is for all calls together, counted from `start` [s] of `time.monotonic`, by default now. `warn` is
+    `timeout` [s] is for all calls together, counted from `start` [s] of `machine_clock.now`, by default now. `warn` is
     called with a sentence when only other worlds run. Raises Failure if no simulator answers.
     """
 
@@ -41,7 +41,7 @@ class RunningWorld:
             raise UsageError(f"-{TIMEOUT.name} must be above 0 and at most {_LONGEST_S:g} s, got {timeout:g}")
         self._node = node
         self._timeout = timeout
-        self._end = (time.monotonic() if start is None else start) + timeout
+        self._end = (machine_clock.now() if start is None else start) + timeout
         done, answer = node.request("/gazebo/worlds", None, Empty, StringMsg_V, self._left_ms())
         if not done or not answer.data:
             where = os.environ.get("GZ_PARTITION")
@@ -88,7 +88,7 @@ class RunningWorld:
         return str(answer.data) if done else ""
 
     def _left_ms(self) -> int:
-        return max(1, round((self._end - time.monotonic()) * 1000))
+        return max(1, round((self._end - machine_clock.now()) * 1000))
 
     def _is_there(self) -> bool:
         return self._topic.removeprefix("/world/") in self._worlds()

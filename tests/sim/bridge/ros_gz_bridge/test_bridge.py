@@ -95,14 +95,20 @@ def test_a_command_that_is_not_finite_is_dropped_counted_and_reported_once_a_sec
     assert (status.dropped, status.ros_to_gz, len(commands.messages)) == (6, 1, 1)
     assert status.last_error.startswith(f"geometry_msgs/msg/Twist on {stage.topic} was not bridged: angular.z is nan")
     bridge.say_unsaid()
-    lines = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
+    lines: list[str] = []
+
+    def warned(count):
+        lines.extend(line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line)
+        return len(lines) >= count
+
+    eventually(lambda: warned(2), "two warnings are written")  # after the messages are counted
     assert [stage.topic in line and "angular.z is nan" in line for line in lines] == [True, True]
     assert lines[1].endswith("(5 messages since the last such line, and another reason)")
     publisher.publish(worse)
     eventually(lambda: bridge.status()[0].dropped == 7, "counted")
     bridge.close()
-    (last,) = [line for line in capfd.readouterr().err.splitlines() if "[WARN]" in line]
-    assert "linear.x is -inf" in last
+    eventually(lambda: warned(3), "the last one, too")
+    assert len(lines) == 3 and "linear.x is -inf" in lines[2]
 
 
 def test_a_message_that_cannot_be_converted_is_dropped_with_its_reason(stage):

@@ -244,7 +244,13 @@ def test_no_text_does_worse_than_a_config_error(text):
             "b.yaml:5:",
             "a dash is missing here, '- ",
         ),
-        (bridge() + bridge(), "b.yaml:5:", "bridges /scan again (first: b.yaml:1)"),
+        (
+            bridge().replace("  gz_type_name", "- gz_type_name"),
+            "b.yaml:3:",
+            "the dash before 'gz_type_name' begins another bridge, so the one above is a part of one",
+        ),
+        (bridge() + "- lazy: true\n", "b.yaml:5:", "so what follows is a part of one"),
+        ("".join(f"- {line[2:]}\n" for line in bridge().splitlines()), "b.yaml:1:", "each dash begins another bridge"),
         ("[" * 5000, "b.yaml", "nested too deeply"),
         ("[" + "a, " * 1001 + "]", "b.yaml", "1001 bridges, more than the 1000"),
         (" " * (MAX_BYTES + 1), "b.yaml", "larger than 256 KiB"),
@@ -254,6 +260,11 @@ def test_each_fault_has_its_sentence_and_place(text, place, words):
     (sentence,) = errors_of(text)
     assert sentence.startswith(place)
     assert words in sentence
+
+
+def test_merge_keys_are_keys_like_others_for_yaml_cpp():
+    merged = bridge().replace("- ", "- &scan\n  ", 1) + "- <<: *scan\n  topic_name: /b\n"
+    assert "'<<' merges nothing in a bridge's file" in errors_of(merged)[0]
 
 
 def test_an_alias_bomb_is_only_a_list_of_wrong_items():
@@ -320,5 +331,5 @@ def test_faults_of_all_arguments_are_listed_at_once():
     good = "/a@std_msgs/msg/Bool@gz.msgs.Boolean"
     assert len(parse_arguments([good, good.replace("/a", "/b", 1)])) == 2
     with pytest.raises(ConfigError) as caught:
-        parse_arguments([good, "x", "y", good.replace("Bool@", "Bool[")])
+        parse_arguments([good, "x", "y", "/c@std_msgs/msg/Bool"])
     assert len(caught.value.errors) == 3

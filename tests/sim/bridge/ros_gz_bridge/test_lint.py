@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gz_course.sim.bridge.ros_gz_bridge.arguments import read_arguments
-from gz_course.sim.bridge.ros_gz_bridge.checks import check, private_gz_names
+from gz_course.sim.bridge.ros_gz_bridge.checks import check, private_gz_names, volatile_static_transforms
 from gz_course.sim.bridge.ros_gz_bridge.config import read_yaml
 from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry, Direction
 from gz_course.sim.bridge.ros_gz_bridge.lint import main
@@ -42,8 +42,7 @@ def entry(topic, types, direction=TO_ROS, source="b.yaml:1", **options):
         ([entry("/scan", SCAN, BOTH)], "is enough (without a direction a bridge goes both ways)"),
         ([entry("/model/a/cmd_vel", TWIST)], "did you mean ] or direction: ROS_TO_GZ?"),
         ([entry("/world/w/dynamic_pose/info", TF)], "carry no frames"),
-        ([entry("/tf_static", TF)], "qos_overrides./tf_static.publisher.durability:=transient_local"),
-        ([entry("/tf_static", TF, lazy=True, qos_profile="ROSOUT")], "connects too late"),
+        ([entry("/a", TWIST), entry("/a", TWIST, BOTH)], "bridges /a again (first: b.yaml:1); keep one"),
         ([entry("/cmd_vel", TWIST, TO_GZ, lazy=True)], "loses the commands sent before it connects"),
         ([entry("/twist", TWIST, BOTH, lazy=True)], "counts itself as a listener in the original"),
         ([entry("/twist", TWIST, frame_id="base")], "geometry_msgs/msg/Twist has no header"),
@@ -60,7 +59,6 @@ def test_each_warning(entries, words):
 @pytest.mark.parametrize(
     ("entries", "words"),
     [
-        ([entry("/a", TWIST), entry("/a", TWIST, BOTH, "b.yaml:7")], "bridges /a again (first: b.yaml:1); keep one"),
         ([entry("/a", TWIST), entry("/a", SCAN, TO_ROS, "b.yaml:7", gz_topic="/b")], "a ROS topic has one type"),
         (
             [entry("/a", TWIST, TO_GZ), entry("/b", ("std_msgs/msg/Bool", "gz.msgs.Boolean"), TO_GZ, gz_topic="/a")],
@@ -72,6 +70,16 @@ def test_each_error_about_several_entries(entries, words):
     (finding,) = check(entries)
     assert not finding.warning
     assert words in finding.sentence
+
+
+def test_a_bridge_of_static_transforms_needs_a_parameter(tmp_path, capsys):
+    file = tmp_path / "b.yaml"
+    file.write_text(
+        f"- {{topic_name: /tf_static, ros_type_name: {TF[0]}, gz_type_name: {TF[1]}, direction: GZ_TO_ROS}}\n"
+    )
+    assert main([str(file)]) == 0
+    assert "-p qos_overrides./tf_static.publisher.durability:=transient_local" in capsys.readouterr().out
+    assert list(volatile_static_transforms([entry("/tf_static", TF, qos_profile="ROSOUT"), entry("/tf", TF)])) == []
 
 
 @pytest.mark.parametrize("topic, types", [("/clock", CLOCK), ("/scan", SCAN)])

@@ -224,3 +224,14 @@ def test_services_of_the_command_line_and_a_file_together(start, tmp_path):
     file.write_text(CONFIG)
     service = "/world/w/control@ros_gz_interfaces/srv/ControlWorld"
     start(service, "--ros-args", "-p", f"config_file:={file}").wait_for("ready: 3 bridges")
+
+
+def test_static_transforms_need_a_durability_that_listeners_accept(start):
+    bridge = "/model/r/pose_static@tf2_msgs/msg/TFMessage[gz.msgs.Pose_V"
+    renamed = ("--ros-args", "-r", "/model/r/pose_static:=/tf_static")
+    parameter = "qos_overrides./tf_static.publisher.durability:=transient_local"
+    without = start(bridge, *renamed)
+    without.wait_for(f"receive nothing from this bridge; add -p {parameter}")
+    durable = start(bridge, *renamed, "-p", parameter)
+    durable.wait_for("ready: 1 bridge")
+    assert not any("receive nothing" in line for line in durable.lines)

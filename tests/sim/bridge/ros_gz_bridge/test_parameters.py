@@ -109,7 +109,7 @@ def test_every_fault_of_every_source_at_once(ros_domain):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--strict", "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock", GOOD, GOOD], "bridges /a again"),
+        (["--strict", GOOD, "/b@std_msgs/msg/Bol@gz.msgs.Boolean"], "std_msgs/msg/Bol"),
         ([GOOD, "--ros-args", "-p", "bridge_names:=3"], "the parameter bridge_names must be a list of texts, not 3"),
         ([GOOD, "--ros-args", "-r", "__node:=1x"], "ROS did not start"),
         ([GOOD, "--ros-args", "--params-file", "/none.yaml"], "ROS did not start"),

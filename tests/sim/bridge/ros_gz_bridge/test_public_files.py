@@ -66,7 +66,7 @@ TAKEN = {
         with_key(LASER, "ros:", "  frame_id: lidar"), 1, ["x.yaml:7: the key 'ros' is not known"], "warning"
     ),
     "a key that is a list": (with_key(TWIST, "? [a, b]", ": 1"), 1, ["a key must be one of"], "warning"),
-    "a merge": (with_key(TWIST, "<<: {lazy: true}"), 1, ["the key '<<' is not known"], "warning"),
+    "a merge": (with_key(TWIST, "<<: {lazy: true}"), 1, ["'<<' merges nothing"], "warning"),
     "a repeated key": (with_key(TWIST, "direction: GZ_TO_ROS"), 1, ["x.yaml:5", "in line 4, which counts"], "warning"),
     "a repeated bridge": (QUOTED + QUOTED.removeprefix("---\n"), 2, ["x.yaml:9: bridges /clock again"], "warning"),
     "the clock both ways": (QUOTED.replace("GZ_TO_ROS", "BIDIRECTIONAL"), 1, ["keeps its own clock"], "warning"),
