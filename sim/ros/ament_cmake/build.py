@@ -10,6 +10,7 @@ Source: https://github.com/ament/ament_cmake/blob/jazzy/ament_cmake_core/doc/res
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.machinery import PathFinder
@@ -18,11 +19,12 @@ from pathlib import Path, PurePosixPath
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.ros.ament_cmake import interfaces
 from gz_course.sim.ros.ament_cmake.cmake_commands import CMakeLists
-from gz_course.sim.ros.ament_cmake.cmake_lists import read_cmake_lists
+from gz_course.sim.ros.ament_cmake.cmake_lists import read_cmake_lists, text_of
 from gz_course.sim.ros.ament_cmake.errors import PackageError, at
 from gz_course.sim.ros.ament_cmake.package_manifest import PackageManifest, read_manifest
 from gz_course.sim.ros.rosidl.packages import ALL, INDEX, MARKS
 
+_FINDS_AMENT = re.compile(r"^\s*find_package\s*\(\s*ament_cmake", re.MULTILINE | re.IGNORECASE)
 _INSTALLED = "install_manifest.txt"  # CMake calls it so, too
 _REMARKED = "remarks.txt"
 
@@ -63,7 +65,7 @@ def build(package: Package, prefixes: Sequence[Path]) -> Built:
     remarks: list[str] = []
     try:
         manifest = read_manifest(package.folder / "package.xml")
-        _check_type(manifest)
+        _check_type(manifest, package.folder / "CMakeLists.txt")
         lists = read_cmake_lists(package.folder / "CMakeLists.txt")
         remarks = lists.remarks
         _check_frame(lists, manifest)
@@ -94,9 +96,9 @@ def _news(package: Package, remarks: list[str]) -> list[str]:
     return [each for each in remarks if each not in told]
 
 
-def _check_type(manifest: PackageManifest) -> None:
-    """Fail for a package that CMake would have to build."""
-    if manifest.build_type == "catkin":
+def _check_type(manifest: PackageManifest, lists: Path) -> None:
+    """Fail for a package that CMake would have to build; colcon takes one without a <build_type> for what it finds."""
+    if manifest.build_type == "catkin" and not (lists.is_file() and _FINDS_AMENT.search(text_of(lists))):
         raise PackageError(
             "this package is for ROS 1: it has no <export><build_type>, so catkin would build it; for ROS 2 write "
             "<build_type>ament_cmake</build_type> or ament_python",

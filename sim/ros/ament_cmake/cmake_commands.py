@@ -49,7 +49,7 @@ class Commands:
 
     def __init__(self, path: Path) -> None:
         self.lists = CMakeLists(path)
-        self.folder = path.parent
+        self.path, self.folder = path, path.parent  # the file that is being read, and the folder of the package
         names = ("CMAKE_SOURCE_DIR", "CMAKE_CURRENT_SOURCE_DIR", "CMAKE_CURRENT_LIST_DIR", "PROJECT_SOURCE_DIR")
         self.variables = dict.fromkeys(names, str(path.parent))
         self.variables |= {"UNIX": "1", "CMAKE_INSTALL_PREFIX": "", "PYTHON_INSTALL_DIR": installed_files.PYTHON}
@@ -192,8 +192,7 @@ class Commands:
             self.lists.files.append(installed_files.InstalledFiles(folder, share, self.line))
 
     def do_include(self, values: list[str]) -> None:
-        if values and values[0].endswith(".cmake"):
-            self.remark(f"'include({values[0]})' is passed over; write into this file what interfaces need")
+        """Pass over a module of CMake; the reader follows a file."""
 
     def lookup(self, name: str, kind: str) -> str:
         """Return the value of a variable, or with the kind `ENV` of one of the environment; empty if it has none."""
@@ -203,11 +202,11 @@ class Commands:
 
     def remark(self, sentence: str) -> None:
         """Note a sentence about the present line."""
-        self.lists.remarks.append(at(self.lists.path, self.line, sentence))
+        self.lists.remarks.append(at(self.path, self.line, sentence))
 
     def error(self, sentence: str) -> PackageError:
         """Return the error that a sentence about the present line is."""
-        return PackageError(sentence, self.lists.path, self.line)
+        return PackageError(sentence, self.path, self.line)
 
 
 COMMANDS: dict[str, Callable[[Commands, list[str]], None]] = {

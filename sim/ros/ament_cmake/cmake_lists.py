@@ -20,6 +20,7 @@ from gz_course.sim.ros.ament_cmake.errors import PackageError
 
 _COMPILED = ("add_executable", "add_library", "rclcpp_components_register_node", "rclcpp_components_register_nodes")
 _BLOCKS = {"foreach": "endforeach", "while": "endwhile", "function": "endfunction", "macro": "endmacro"}
+_MOST_INCLUDES = 50
 _MOST_STEPS = 100_000  # commands, those in loops each time
 # They say how to compile, link, test and export, or only change what others of them do.
 _WITHOUT_EFFECT = {
@@ -37,15 +38,19 @@ _WITHOUT_EFFECT = {
 
 def read_cmake_lists(path: Path) -> CMakeLists:
     """Return what a file says. Raises PackageError."""
+    reader = _Reader(path)
+    reader.run(commands_of(text_of(path), path))
+    return reader.lists
+
+
+def text_of(path: Path) -> str:
+    """Return the text of a file. Raises PackageError."""
     try:
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise PackageError(f"this is not a text in UTF-8: {error.reason}", path) from None
     except OSError as error:
         raise PackageError(f"the file cannot be read: {error.strerror}", path) from None
-    reader = _Reader(path)
-    reader.run(commands_of(text, path))
-    return reader.lists
 
 
 def _body(commands: Sequence[Command], start: int) -> Sequence[Command]:
@@ -64,6 +69,7 @@ class _Reader(Commands):
     def __init__(self, path: Path) -> None:
         super().__init__(path)
         self.steps = 0
+        self.depth = 0  # of the files that include each other
 
     def run(self, commands: Sequence[Command]) -> bool:
         """Follow the commands; return whether `return()` has ended them.
@@ -104,9 +110,9 @@ class _Reader(Commands):
                     return True
                 self._do(command)
         if block[1]:
-            raise PackageError(f"expected '{block[0]}()' before the end of the file", self.lists.path)
+            raise PackageError(f"expected '{block[0]}()' before the end of the file", self.path)
         if branches:
-            raise PackageError("this 'if()' has no 'endif()'", self.lists.path, branches[-1][2])
+            raise PackageError("this 'if()' has no 'endif()'", self.path, branches[-1][2])
         return False
 
     def _repeat(self, command: Command, body: Sequence[Command]) -> bool:
@@ -137,12 +143,30 @@ class _Reader(Commands):
         held = [item for name in parts.get("LISTS", []) for item in self.variables.get(name, "").split(";") if item]
         return held + parts.get("ITEMS", [])
 
+    def _include(self, path: Path, *, optional: bool) -> None:
+        """Follow the commands of another file, with the same variables."""
+        if not path.is_file():
+            if optional:
+                return
+            raise self.error(f"include could not find the file '{path}'")
+        self.depth += 1
+        if self.depth > _MOST_INCLUDES:
+            raise self.error(f"this file includes itself: '{path}'")
+        here = self.path, self.line, self.variables["CMAKE_CURRENT_LIST_DIR"]
+        self.path, self.variables["CMAKE_CURRENT_LIST_DIR"] = path, str(path.parent)
+        self.run(commands_of(text_of(path), path))
+        self.path, self.line, self.variables["CMAKE_CURRENT_LIST_DIR"] = here
+        self.depth -= 1
+
     def _do(self, command: Command) -> None:
         name, values = command.name, values_of(command.arguments, self.lookup)
+        if name == "include" and values and values[0].endswith(".cmake"):
+            self._include(self.folder / values[0], optional="OPTIONAL" in values)
+            return
         if self.lists.package_line:
             if name == INTERFACES:
                 raise self.error(f"{INTERFACES}() must be called before ament_package()")
-            if name in ("install", "ament_python_install_package"):
+            if name == "ament_python_install_package":
                 raise self.error(f"{name}() must be called before ament_package()")
         if act := COMMANDS.get(name):
             act(self, values)

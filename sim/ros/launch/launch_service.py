@@ -15,12 +15,14 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import signal
+import socket
 import threading
 import traceback
 from collections.abc import Callable, Coroutine, Iterable
 from types import FrameType
 
 import gz_course.sim.ros.launch.logging as launch_logging
+from gz_course.sim.postponed_signal import postponed
 from gz_course.sim.ros.launch.errors import LaunchError, sentence
 from gz_course.sim.ros.launch.event import Event
 from gz_course.sim.ros.launch.event_handler import EventHandler
@@ -208,16 +210,45 @@ class LaunchService:
             signal.signal(number, self._on_signal)
         if before[signal.SIGCHLD] is signal.SIG_IGN:
             signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # otherwise the exit codes of children would be lost
+        asleep = self._wake_on_signals()
 
         def restore() -> None:
+            asleep()
             for number, handler in before.items():
                 signal.signal(number, handler if handler is not None else signal.SIG_DFL)
 
         return restore
 
+    def _wake_on_signals(self) -> Callable[[], None]:
+        """Let each signal wake the loop; return a function that ends this.
+
+        A handler runs only when the main thread computes. A signal that another thread gets, or that comes just before
+        the loop begins to wait, would not be heard before the next event. Source: signal.set_wakeup_fd.
+        """
+        loop = self.__loop
+        assert loop is not None
+        reading, writing = socket.socketpair()
+        reading.setblocking(False)
+        writing.setblocking(False)
+        before = signal.set_wakeup_fd(writing.fileno(), warn_on_full_buffer=False)
+        if before != -1:  # the loop has one of its own
+            signal.set_wakeup_fd(before)
+        else:
+            loop.add_reader(reading, reading.recv, 4096)
+
+        def end() -> None:
+            if before == -1:
+                loop.remove_reader(reading)
+                signal.set_wakeup_fd(-1)
+            reading.close()
+            writing.close()
+
+        return end
+
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if self.__visiting:
-            self.context._hold_signal(number)
+            if not postponed(number, frame):
+                self.context._hold_signal(number)
         else:
             self._interrupt_soon(number)
 

@@ -18,6 +18,7 @@ from gz_course.sim.ros.launch.launch_introspector import arguments_text
 from gz_course.sim.ros.launch_testing.junitxml import unittestResultsToXml
 from gz_course.sim.ros.launch_testing.loader import LoadTestsFromPythonModule
 from gz_course.sim.ros.launch_testing.test_runner import LaunchTestRunner
+from gz_course.sim.terminal_text import guard
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -66,6 +67,7 @@ def run(
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `launch_test`; the program imports this module by its public name, so an installed one comes first."""
+    guard()
     parser = argparse.ArgumentParser(prog="launch_test", description="Launch integration testing tool.")
     add_arguments(parser)
     return run(parser, parser.parse_args(arguments))

@@ -89,7 +89,7 @@ class Entity(FrontendEntity):
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         attributes = self._attributes(optional)
         self._asked.append(name)
-        if name not in attributes or attributes[name] is None:
+        if name not in attributes:
             if optional:
                 return None
             found = nearest_name(name, [each for each in attributes if isinstance(each, str)])
@@ -109,10 +109,14 @@ class Entity(FrontendEntity):
             ]  # fmt: skip
         if not is_instance_of(value, data_type, can_be_str=can_be_str):
             wanted, hint = type_word(data_type), ""
-            if data_type is str and isinstance(value, bool | int | float):
-                hint = f"; write '{value}' with its quotes"
-            if data_type is float and isinstance(value, int):
+            if value is None:
+                hint = "; give it one, or leave the key out"
+            elif data_type is str and isinstance(value, bool | int | float):
+                hint = f"; write '{str(value).lower()}' with its quotes"
+            elif data_type is float and isinstance(value, int) and not isinstance(value, bool):
                 hint = f"; write {value}.0"
+            elif data_type in (bool, float) and isinstance(value, str) and not can_be_str:
+                hint = "; write it without quotes and substitutions"
             raise EntityError(self, f"'{name}' of {self.described()} is {_shown(value)}, not {wanted}{hint}", name)
         return value
 

@@ -16,6 +16,7 @@ import os
 import sys
 from collections.abc import MutableMapping
 
+from gz_course.sim.ros.prefix import missing_packages
 from gz_course.sim.ros.rosidl import import_hook
 from gz_course.sim.ros.rosidl.packages import BUILT_IN
 
@@ -28,6 +29,7 @@ def main() -> None:
     """Set up the environment of this process, which its children inherit."""
     source(os.environ)
     import_hook.install()
+    missing_packages.install()
     # The user may have modules of these names.
     for name in (__name__, __name__.rpartition(".")[0]):
         sys.modules.pop(name, None)

@@ -35,7 +35,8 @@ def nodes_with(graph: Graph, name: str, of_node: Callable[[Any, str, str], Names
     """Return the nodes at one end of an action, and the types there; `of_node` lists such ends of one node."""
     found = []
     for node in graph.nodes(hidden=True):
-        with contextlib.suppress(rclpy_implementation.NodeNameNonExistentError):  # it has ended meanwhile
+        # A node that has ended meanwhile; for actions, rclpy has no error of its own for that.
+        with contextlib.suppress(rclpy_implementation.RCLError):
             types = dict(of_node(graph.node, *split_name(node))).get(name)
             if types:
                 found.append((node, sorted(types)))

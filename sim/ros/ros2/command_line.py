@@ -79,6 +79,8 @@ def _explained(arguments: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:
+        if interruption.received():  # pybind11 turns a KeyboardInterrupt into an error of a conversion
+            return _INTERRUPTED
         if sys.flags.dev_mode:  # `python -X dev -m gz_course.sim.ros.ros2 …` shows the traceback
             raise
         print(f"ros2: internal error: {named(error)}", file=sys.stderr)

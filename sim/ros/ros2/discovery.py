@@ -16,10 +16,11 @@ import contextlib
 import secrets
 import socket
 import struct
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+
+from gz_course.sim import machine_clock
 
 SCOUT_EVERY = 0.25  # [s] between scouts while a participant is missing
 _PORT_TABLE = Path("/proc/net/udp")
@@ -57,8 +58,8 @@ class Participants:
             return None
         if len(self._known()) >= len(ports):
             return True
-        if time.monotonic() >= self._next_scout:
-            self._next_scout = time.monotonic() + SCOUT_EVERY
+        if machine_clock.now() >= self._next_scout:
+            self._next_scout = machine_clock.now() + SCOUT_EVERY
             _send_scout(own, [port for port in ports if port != own], self._own_prefix[:_HOST])
         return False
 

@@ -3,7 +3,8 @@
 There is no daemon that already knows the graph. Verbs that list wait until every DDS participant of this machine is
 known (`discovery`) with all its nodes and endpoints and nothing changes any more (`settle`, or `--spin-time`); verbs
 with a target continue as soon as it is found (`wait_for`), or report that it is missing once all participants are
-known. Every wait has a deadline.
+known. Every wait has a deadline. Discovery takes the time of the machine (`machine_clock`); what is awaited while data
+is processed (`spin_until`) takes that of the world.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
+from gz_course.sim import machine_clock
 from gz_course.sim.ros.ros2.discovery import Participants
 from gz_course.sim.ros.ros2.errors import CommandError
 from gz_course.sim.ros.ros2.exit_deadline import end_within
@@ -102,7 +104,7 @@ class Graph:
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._participants.attach(self.node)
-        self._created = time.monotonic()
+        self._created = machine_clock.now()
         self._seen: Any = None
         self._changed = self._created
 
@@ -164,7 +166,7 @@ class Graph:
         if self._spin_time is not None:
             end = self._created + self._spin_time
             # Called each time, because it also sends scouts to missing participants.
-            self._wait(lambda: (self._participants.all_known(), time.monotonic() >= end)[1], self._spin_time)
+            self._wait(lambda: (self._participants.all_known(), machine_clock.now() >= end)[1], self._spin_time)
         else:
             self._wait(lambda: self._complete(QUIET), deadline)
 
@@ -183,7 +185,7 @@ class Graph:
 
             def decided() -> bool:
                 complete = self._complete(QUIET)  # called each time, because it also sends scouts
-                return bool(find()) or (complete and time.monotonic() >= given_up)
+                return bool(find()) or (complete and machine_clock.now() >= given_up)
 
             self._wait(decided, TARGET_DEADLINE)
         return find()
@@ -202,18 +204,18 @@ class Graph:
         return dict(self.topics(hidden=True)).get(name, [])
 
     def _wait(self, condition: Callable[[], bool | None], timeout: float) -> bool:
-        end = time.monotonic() + timeout
+        end = machine_clock.now() + timeout
         while not condition():
-            left = end - time.monotonic()
+            left = end - machine_clock.now()
             if left <= 0:
                 return False
-            time.sleep(min(_POLL, left))
+            machine_clock.pause(min(_POLL, left))
             check()
         return True
 
     def _complete(self, quiet: float) -> bool:
         """Return whether all participants and their endpoints are known, and nothing has changed for `quiet` [s]."""
-        now, seen = time.monotonic(), self._snapshot()
+        now, seen = machine_clock.now(), self._snapshot()
         if seen != self._seen:
             self._seen, self._changed = seen, now
         all_known = self._participants.all_known()

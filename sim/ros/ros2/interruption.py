@@ -1,6 +1,7 @@
 """Turns SIGINT and SIGTERM into a KeyboardInterrupt that is not lost: the next `check` raises it at the latest.
 
-Python drops an exception that a signal raises in a callback from C or in a `__del__`, and rclpy has many of both.
+Python drops an exception that a signal raises in a callback from C or in a `__del__`, and rclpy has many of both. Amid
+an import it is raised a moment later (`sim/postponed_signal.py`).
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 import signal
 import sys
 from types import FrameType
+
+from gz_course.sim.postponed_signal import postponed
 
 _received = False
 
@@ -27,6 +30,11 @@ def ignore() -> None:
         signal.signal(number, signal.SIG_IGN)
 
 
+def received() -> bool:
+    """Return whether a signal has arrived: an error that comes then may be what C code has made of the interruption."""
+    return _received
+
+
 def check() -> None:
     """Raise KeyboardInterrupt if a signal has arrived."""
     if _received:
@@ -44,5 +52,7 @@ def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
 
 def _interrupt(number: int, frame: FrameType | None) -> None:
     global _received
+    if postponed(number, frame):
+        return
     _received = True
     raise KeyboardInterrupt

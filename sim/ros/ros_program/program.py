@@ -10,9 +10,11 @@ import contextlib
 import signal
 import sys
 from collections.abc import Callable
+from types import FrameType
 from typing import TYPE_CHECKING
 
 from gz_course.sim.foreign_variables import set_aside
+from gz_course.sim.postponed_signal import postponed
 from gz_course.sim.ros.ros_program.errors import Failure, UsageError, first_line
 from gz_course.sim.ros.ros_program.spinner import STOP_SIGNALS, block_stop_signals
 from gz_course.sim.terminal_text import guard
@@ -90,9 +92,11 @@ def _remember(program: str, sentences: tuple[str, ...]) -> None:
             forget(get_logging_directory(), words.place)
 
 
-def _interrupt(*_: object) -> None:
-    for number in STOP_SIGNALS:  # a second signal must not interrupt the cleanup
-        signal.signal(number, signal.SIG_IGN)
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    if postponed(number, frame):
+        return
+    for each in STOP_SIGNALS:  # a second signal must not interrupt the cleanup
+        signal.signal(each, signal.SIG_IGN)
     raise KeyboardInterrupt
 
 

@@ -6,6 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from gz_course.sim.ros.launch.actions.set_environment_variable import SetEnvironmentVariable
+from gz_course.sim.ros.launch.errors import LaunchError
 from gz_course.sim.ros.launch.frontend.expose import expose_action
 from gz_course.sim.ros.launch.launch_context import LaunchContext
 from gz_course.sim.ros.launch.some_substitutions_type import SomeSubstitutionsType
@@ -39,6 +40,8 @@ class AppendEnvironmentVariable(SetEnvironmentVariable):
         separator = entity.get_attr("separator", optional=True)
         if prepend is not None:
             options["prepend"] = parser.parse_if_substitutions(prepend)
+            if isinstance(options["prepend"], str):
+                raise LaunchError(f"prepend is the text {prepend!r}; write true or false without quotes")
         if separator is not None:
             options["separator"] = parser.parse_substitution(separator)
         return cls, options

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import gz_course.sim.ros.launch.logging as launch_logging
+from gz_course.sim import machine_clock
 from gz_course.sim.ros.launch.action import Action
 from gz_course.sim.ros.launch.actions.emit_event import EmitEvent
 from gz_course.sim.ros.launch.child_process import ChildProcess
@@ -36,6 +37,7 @@ from gz_course.sim.ros.launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
+from gz_course.sim.ros.launch.frontend.flag import read_flag
 from gz_course.sim.ros.launch.launch_context import LaunchContext
 from gz_course.sim.ros.launch.launch_description_entity import LaunchDescriptionEntity
 from gz_course.sim.ros.launch.process_output import ProcessOutput
@@ -60,13 +62,10 @@ _IO_EVENTS = {"stdout": ProcessStdout, "stderr": ProcessStderr}
 _ATTRIBUTES: dict[str, Any] = {
     "output": str,
     "output_format": str,
-    "respawn": bool,
-    "respawn_delay": float,
+    "respawn": str,
     "respawn_max_retries": int,
-    "sigterm_timeout": float,
-    "sigkill_timeout": float,
-    "emulate_tty": bool,
 }
+_TIMES = ("respawn_delay", "sigterm_timeout", "sigkill_timeout")  # attributes [s] that can be numbers only
 _GRACE = 1.0  # [s] for background processes, after the process itself has ended
 OnExit = SomeEntitiesType | Callable[[ProcessExited, LaunchContext], SomeEntitiesType | None] | None
 
@@ -135,13 +134,13 @@ class ExecuteLocal(Action):
             value = None if name in ignore else entity.get_attr(name, data_type=data_type, optional=True)
             if value is not None:
                 options[name] = parser.parse_if_substitutions(value)
-        # Numbers that are not substitutions are checked here, where the place of the attribute is known.
-        delay = options.get("respawn_delay")
-        if isinstance(delay, int | float) and delay < 0.0:
-            raise LaunchError(f"respawn_delay={delay} is less than 0")
-        if "shell" not in ignore:
-            shell = entity.get_attr("shell", data_type=bool, optional=True, can_be_str=False)
-            options |= {} if shell is None else {"shell": shell}
+        for name in _TIMES:
+            time = None if name in ignore else entity.get_attr(name, data_type=float, optional=True, can_be_str=False)
+            if time is not None and time < 0.0:
+                raise LaunchError(f"{name}={time} is less than 0")
+            options |= {} if time is None else {name: time}
+        for name in ("shell", "emulate_tty"):
+            options |= {} if name in ignore else read_flag(entity, name)
         if "on_exit" not in ignore and (reaction := entity.get_attr("on_exit", optional=True)) is not None:
             if reaction != "shutdown":
                 raise LaunchError(f"on_exit is '{reaction}'; it can be 'shutdown'")
@@ -389,7 +388,9 @@ class _ProcessHandler(EventHandler):
 
 
 async def _happens(event: asyncio.Event, within: float) -> bool:
-    """Wait for an event for `within` [s]; return whether it was set."""
-    with contextlib.suppress(TimeoutError):
-        await asyncio.wait_for(event.wait(), within)
+    """Wait for an event for `within` [s] of the machine; return whether it was set."""
+    end = machine_clock.now() + within
+    while not event.is_set() and (left := end - machine_clock.now()) > 0:
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(event.wait(), left)
     return event.is_set()

@@ -15,6 +15,7 @@ from gz_course.sim.ros.launch.actions.reset_launch_configurations import ResetLa
 from gz_course.sim.ros.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from gz_course.sim.ros.launch.frontend.entity import Entity
 from gz_course.sim.ros.launch.frontend.expose import expose_action
+from gz_course.sim.ros.launch.frontend.flag import read_flag
 from gz_course.sim.ros.launch.frontend.named_values import named_values
 from gz_course.sim.ros.launch.launch_context import LaunchContext
 from gz_course.sim.ros.launch.launch_description_entity import LaunchDescriptionEntity, listed
@@ -52,9 +53,7 @@ class GroupAction(Action):
         """Read `<group [scoped=] [forwarding=]>`, which can hold `<keep name= value=/>` beside actions."""
         _, options = super().parse(entity, parser)
         for name in ("scoped", "forwarding"):
-            value = entity.get_attr(name, data_type=bool, optional=True, can_be_str=False)
-            if value is not None:
-                options[name] = value
+            options |= read_flag(entity, name)
         kept = entity.get_attr("keep", data_type=list[Entity], optional=True)
         if kept is not None:
             options["launch_configurations"] = named_values(kept, parser)

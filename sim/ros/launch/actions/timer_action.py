@@ -52,11 +52,14 @@ class TimerAction(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
-        """Read `<timer period=>`, which holds actions."""
+        """Read `<timer period= [cancel_on_shutdown=]>`, which holds actions."""
         _, options = super().parse(entity, parser)
         period = entity.get_attr("period", data_type=float)
         options["period"] = parser.parse_if_substitutions(period)
         options["actions"] = [parser.parse_action(child) for child in entity.children]
+        cancel = entity.get_attr("cancel_on_shutdown", data_type=bool, optional=True)
+        if cancel is not None:
+            options["cancel_on_shutdown"] = parser.parse_if_substitutions(cancel)
         return cls, options
 
     def describe(self) -> str:
@@ -82,7 +85,7 @@ class TimerAction(Action):
             period = float(text)
         except ValueError:
             period = math.nan
-        if not 0.0 <= period < math.inf:
+        if math.isnan(period):
             raise LaunchError(f"period={text!r} of {type(self).__name__} is no number of seconds")
         loop = context.asyncio_loop
         if loop is None:
@@ -97,7 +100,8 @@ class TimerAction(Action):
         context.register_event_handler(handler)
         self.__future.add_done_callback(lambda _: context.unregister_event_handler(handler))
         due = TimerEvent(timer_action=self)
-        self.__cancel_timer = self._call_later(context, period, lambda: context.emit_event_sync(due))
+        if period < math.inf:  # an endless period ends with the launch, and one below 0 at once
+            self.__cancel_timer = self._call_later(context, max(period, 0.0), lambda: context.emit_event_sync(due))
         return None
 
     def _call_later(self, context: LaunchContext, period: float, call: Callable[[], None]) -> Callable[[], None]:

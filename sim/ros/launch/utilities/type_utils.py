@@ -30,7 +30,7 @@ SomeValueType = Any
 NormalizedScalarType = list[Substitution] | ScalarValueType
 NormalizedValueType = Any
 SomeSubstitutions = SomeSubstitutionsType
-_BOOLS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
+_BOOLS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 
 
 def is_typing_list(data_type: Any) -> bool:

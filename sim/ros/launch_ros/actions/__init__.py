@@ -6,7 +6,7 @@ from gz_course.sim.ros.launch_ros.actions.lifecycle_transition import LifecycleT
 from gz_course.sim.ros.launch_ros.actions.load_composable_nodes import LoadComposableNodes
 from gz_course.sim.ros.launch_ros.actions.node import Node
 from gz_course.sim.ros.launch_ros.actions.push_ros_namespace import PushROSNamespace, PushRosNamespace
-from gz_course.sim.ros.launch_ros.actions.ros_timer import RosTimer
+from gz_course.sim.ros.launch_ros.actions.ros_timer import ROSTimer, RosTimer
 from gz_course.sim.ros.launch_ros.actions.set_parameter import SetParameter
 from gz_course.sim.ros.launch_ros.actions.set_parameters_from_file import SetParametersFromFile
 from gz_course.sim.ros.launch_ros.actions.set_remap import SetRemap
@@ -21,6 +21,7 @@ __all__ = [
     "Node",
     "PushROSNamespace",
     "PushRosNamespace",
+    "ROSTimer",
     "RosTimer",
     "SetParameter",
     "SetParametersFromFile",

@@ -11,7 +11,7 @@ from gz_course.sim.ros.launch_ros.ros_adapters import get_ros_node
 
 
 @expose_action("ros_timer")
-class RosTimer(TimerAction):
+class ROSTimer(TimerAction):
     """Visits `actions` once, `period` [s] of ROS time after its execution.
 
     ROS time is that of /clock if SetUseSimTime(True) stands before the first action that needs a ROS node.
@@ -28,3 +28,6 @@ class RosTimer(TimerAction):
             timer.cancel()
 
         return cancel
+
+
+RosTimer = ROSTimer  # its name before Jazzy

@@ -270,6 +270,12 @@ def test_what_only_cmake_can_build_is_one_sentence(tmp_path, kind, words):
     assert fault.startswith(f"{tmp_path}/package.xml: {words}")
 
 
+def test_a_package_without_a_build_type_is_what_it_finds(workspace):
+    workspace.manifest = MANIFEST.replace("<export><build_type>ament_cmake</build_type></export>", "")
+    assert workspace.build().faults == []
+    assert "share/tutorial_interfaces/msg/Num.msg" in workspace.installed()
+
+
 def test_a_linked_program_must_be_executable(workspace):
     workspace.more = "install(PROGRAMS run.py DESTINATION lib/${PROJECT_NAME})"
     workspace.texts["run.py"] = ""

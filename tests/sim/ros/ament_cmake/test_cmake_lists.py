@@ -92,7 +92,6 @@ def test_what_every_package_has_gets_no_remark(read):
         ("foreach(a RANGE 3)\n  set(${a} 1)\nendforeach()", "this form of 'foreach()' is ignored"),
         ("while(a)\n  set(${a} 1)\nendwhile()", "what stands in 'while()' is passed over"),
         ("if(A SOMEHOW B)\nendif()", "the condition of 'if()' is not understood at 'SOMEHOW'"),
-        ("include(cmake/more.cmake)", "'include(cmake/more.cmake)' is passed over"),
         ('message(WARNING "mind the gap")', "mind the gap"),
         ("install(SCRIPT x.cmake)", "'install(SCRIPT ...)' is passed over: only DIRECTORY, FILES and PROGRAMS"),
     ],
@@ -124,7 +123,7 @@ def test_anything_else_gets_a_sentence_with_file_and_line(read, body, words):
         ("endif()", "6: 'endif()' stands after no 'if()'"),
         ("foreach(a)", "expected 'endforeach()' before the end of the file"),
         ('message(FATAL_ERROR "no way")', "6: no way"),
-        ("ament_package()\ninstall(FILES a DESTINATION b)", "7: install() must be called before ament_package()"),
+        ("include(cmake/more.cmake)", "6: include could not find the file '"),
         ("ament_package()\nrosidl_generate_interfaces(x y)", "7: rosidl_generate_interfaces() must be called before"),
     ],
 )
@@ -181,3 +180,23 @@ def test_conditions_hold_as_python_says(tmp_path_factory, data):
     lists = read_cmake_lists(path)
     assert [each.source for each in lists.files] == [str(index) for index, (_, holds) in enumerate(cases) if holds]
     assert lists.remarks == []
+
+
+def test_files_of_the_package_are_included(read, tmp_path):
+    (tmp_path / "cmake").mkdir()
+    (tmp_path / "cmake" / "files.cmake").write_text(
+        "set(FILES msg/A.msg)\ninclude(${CMAKE_CURRENT_LIST_DIR}/more.cmake)\n"
+    )
+    (tmp_path / "cmake" / "more.cmake").write_text("list(APPEND FILES srv/B.srv)\n")
+    body = "include(cmake/files.cmake)\ninclude(none.cmake OPTIONAL)\nrosidl_generate_interfaces(robot_msgs ${FILES})"
+    assert list(read(body).interfaces) == ["msg/A.msg", "srv/B.srv"]
+    (tmp_path / "cmake" / "more.cmake").write_text("\nmessage(FATAL_ERROR no)\n")
+    with pytest.raises(PackageError, match=r"cmake/more\.cmake:2: no"):
+        read(body)
+    (tmp_path / "cmake" / "more.cmake").write_text("include(cmake/files.cmake)\n")
+    with pytest.raises(PackageError, match="this file includes itself"):
+        read(body)
+
+
+def test_files_may_be_installed_after_the_package(read):
+    assert read("ament_package()\ninstall(DIRECTORY config DESTINATION share)").files[0].source == "config"

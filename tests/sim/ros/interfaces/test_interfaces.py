@@ -58,6 +58,7 @@ HASHES = {
     "vision_msgs/msg/VisionClass": "1e4a11f0fed50b5623cb8ff26ca0e379",
 }
 COUNTS = {
+    "ackermann_msgs": 2,
     "action_tutorials_interfaces": 1,
     "actuator_msgs": 8,
     "control_msgs": 31,
@@ -65,6 +66,7 @@ COUNTS = {
     "gps_msgs": 2,
     "marine_acoustic_msgs": 8,
     "nav2_msgs": 35,
+    "object_recognition_msgs": 8,
     "rosbag2_interfaces": 15,
     "ros_gz_interfaces": 25,
     "turtlesim": 8,

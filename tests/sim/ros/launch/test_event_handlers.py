@@ -1,6 +1,6 @@
 """Event handlers: which events they get, and when an action is complete."""
 
-from gz_course.sim.ros.launch import Event, EventHandler
+from gz_course.sim.ros.launch import Event, EventHandler, LaunchContext, LaunchDescription
 from gz_course.sim.ros.launch.actions import (
     EmitEvent,
     ExecuteProcess,
@@ -10,7 +10,8 @@ from gz_course.sim.ros.launch.actions import (
     TimerAction,
     UnregisterEventHandler,
 )
-from gz_course.sim.ros.launch.event_handlers import OnExecutionComplete, event_named
+from gz_course.sim.ros.launch.event_handlers import OnExecutionComplete, OnIncludeLaunchDescription, event_named
+from gz_course.sim.ros.launch.events import IncludeLaunchDescription
 
 
 def said(result):
@@ -62,3 +63,11 @@ def test_events_are_found_by_their_names(run):
 
     result = run(on(Arrived.name), on("launch.events.Shutdown"), on("Shutdown"), EmitEvent(event=Arrived()))
     assert said(result) == ["my_package.Arrived", "launch.events.Shutdown"]
+
+
+def test_a_launch_description_of_an_event_is_visited(run):
+    description = LaunchDescription([note("included")])
+    event, handler = IncludeLaunchDescription(description), OnIncludeLaunchDescription()
+    assert said(run(EmitEvent(event=event))) == ["included"], "a LaunchService has such a handler"
+    assert handler.matches(event) and not handler.matches(Event())
+    assert handler.handle(event, LaunchContext()) == [description]

@@ -125,7 +125,13 @@ MISTAKES = [
     ("<launch><log message='a' if='1' unless='1'/></launch>", "`if` and `unless` exclude each other"),
     ("<launch><group><log/></group></launch>", "1:16: <log> lacks the attribute 'message'"),
     ("<launch><timer period='soon'/></launch>", "1:9: period='soon' of TimerAction is no number"),
-    ("<launch><executable cmd='a' respawn='1'/></launch>", "1:29: 'respawn' of <executable> is '1', not true or false"),
+    ("<launch><executable cmd='a' respawn='maybe'/></launch>", "1:9: invalid condition expression: 'maybe'"),
+    (
+        "<launch><executable cmd='a' respawn_delay='$(var x)'/></launch>",
+        "1:29: 'respawn_delay' of <executable> is '$(var x)', not a number with a point",
+    ),
+    ("<launch><executable cmd='a' sigterm_timeout='-1'/></launch>", "1:29: 'sigterm_timeout' of <executable>: "),
+    ("<launch><append_env name='A' value='b' prepend='maybe'/></launch>", "prepend is the text 'maybe'; write true or"),
     ('<launch><executable cmd="echo \'a"/></launch>', "1:21: 'cmd' of <executable>: the command cannot be split"),
     ("<launch><executable cmd='a' on_exit='x'/></launch>", "on_exit is 'x'; it can be 'shutdown'"),
     (
@@ -154,6 +160,17 @@ MISTAKES = [
         "2:13: 'period' of 'timer' is 5, not a number with a point",
     ),
     ("launch:\n  - timer: {period: 5.0}\n", "2:5: 'timer' lacks the key 'children', a list of actions"),
+    (
+        "launch:\n  - executable: {cmd: a, respawn: true}\n",
+        "2:26: 'respawn' of 'executable' is True, not text; write 'true' with its quotes",
+    ),
+    (
+        "launch:\n  - executable: {cmd: a, respawn_delay: '2.0'}\n",
+        "is '2.0', not a number with a point; write it without quotes and substitutions",
+    ),
+    ("launch:\n  - executable: {cmd: a, respawn_delay: 2}\n", "is 2, not a number with a point; write 2.0"),
+    ("launch:\n  - executable: {cmd: a, name: }\n", "is nothing, not text; give it one, or leave the key out"),
+    ("launch:\n  - append_env: {name: A, value: b, prepend: 'true'}\n", "prepend is the text 'true'; write true or"),
     ("launch: 3\n", "1:1: below 'launch' stands 3, not a list of actions"),
     ("lunch: []\n", "1:1: a launch file begins with `launch`, this one with 'lunch'"),
     ("launch: [\n", "this is no YAML: "),
@@ -257,3 +274,31 @@ def test_the_names_of_ros_2(write):
     assert XMLLaunchDescriptionSource(path).try_get_launch_description_without_context() is not None
     with pytest.raises(LaunchError):
         YAMLLaunchDescriptionSource(path).try_get_launch_description_without_context()
+
+
+FLAGS = [
+    (
+        "a.launch.xml",
+        "<launch><group scoped='0'><let name='y' value='1'/></group><log message='$(var y)'/></launch>",
+        False,
+    ),
+    ("b.launch.yaml", "launch:\n- group: {scoped: 'false', children: [{log: {message: '1'}}]}\n", True),
+    ("c.launch.xml", "<launch><executable cmd='true' shell='$(var x)'/><log message='1'/></launch>", True),
+    ("d.launch.xml", "<launch><executable cmd='true' emulate_tty='1' respawn='0'/><log message='1'/></launch>", False),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "warned"), FLAGS)
+def test_flags_are_read_as_launch_reads_them(run, write, name, text, warned):
+    result = run(include(write(name, text)))
+    assert (result.code, said(result)) == (0, ["1"])
+    assert ("counts as true whatever it says" in result.text) is warned
+
+
+@pytest.mark.parametrize("value", ["'false'", '"$(var no)"', "'0'"])
+def test_a_timer_of_a_file_outlives_the_shutdown_if_it_says_so(run, write, value):
+    text = (
+        f"<launch><let name='no' value='false'/><timer period='-1' cancel_on_shutdown={value}>"
+        "<log message='late'/></timer><shutdown/></launch>"
+    )
+    assert said(run(include(write("a.launch.xml", text)))) == ["late"]

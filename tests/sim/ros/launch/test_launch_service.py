@@ -333,7 +333,7 @@ def test_a_shutdown_cancels_timers(run):
     assert said(result) == ["late"]
 
 
-@pytest.mark.parametrize("period", ["soon", "-1", "nan"])
+@pytest.mark.parametrize("period", ["soon", "", "nan"])
 def test_a_period_that_is_no_time(run, period):
     result = run(TimerAction(period=period, actions=[]))
     assert result.code == 1 and "is no number of seconds" in result.text

@@ -78,6 +78,24 @@ def test_signals_end_it_whatever_it_does(tmp_path, entities, number, code):
     assert f"[WARNING] [launch]: {wanted}" in rest
 
 
+ELSEWHERE = """
+def deaf():
+    main = threading.main_thread().native_id
+    while open(f"/proc/self/task/{main}/stat").read().rpartition(")")[2].split()[0] != "S":
+        pass
+    signal.pthread_kill(threading.get_ident(), signal.SIGQUIT)
+"""
+
+
+def test_a_signal_that_another_thread_gets_wakes_the_run():
+    """The same as one that comes just before the loop begins to wait: nothing else wakes it."""
+    start = "OpaqueFunction(function=lambda context: threading.Thread(target=deaf).start())"
+    program = INTERRUPTED.format(setup=ELSEWHERE, entities=f"{start}, TimerAction(period=1000.0, actions=[])")
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
+    assert "received SIGQUIT: shutting down" in done.stdout + done.stderr
+    assert done.returncode == 1
+
+
 def test_a_command_that_is_interrupted_while_it_starts_is_ended(run, monkeypatch):
     started = []
 

@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import threading
+from types import SimpleNamespace
 
 import pytest
 
@@ -115,6 +116,16 @@ def test_info(answers):
         "Action: /robot/cuont\nAction clients: 0\nAction servers: 0\n",
         "Unknown action '/robot/cuont'; did you mean '/robot/count'?\n",
     )
+
+
+def test_a_node_that_has_ended_meanwhile_has_no_actions(counter):
+    from rclpy.action.graph import get_action_client_names_and_types_by_node, get_action_server_names_and_types_by_node
+
+    from gz_course.sim.ros.ros2.action import nodes_with
+
+    graph = SimpleNamespace(node=counter, nodes=lambda hidden: ["/gone", NODE])
+    assert nodes_with(graph, "/robot/count", get_action_server_names_and_types_by_node) == [(NODE, [TYPE])]
+    assert nodes_with(graph, "/robot/count", get_action_client_names_and_types_by_node) == []
 
 
 @pytest.mark.parametrize(

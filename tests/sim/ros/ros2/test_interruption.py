@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from gz_course.sim.ros.ros2 import interruption
+from gz_course.sim.ros.ros2 import command_line, interruption
 
 
 class Deaf:
@@ -70,3 +70,18 @@ def test_another_fault_that_python_drops_is_printed_as_ever(listening, capsys):
     del (broken := [Broken()])[:]
     assert broken == []
     assert "a fault of its own" in capsys.readouterr().err
+
+
+def test_what_c_code_makes_of_an_interruption_is_no_error(listening, monkeypatch, capsys):
+    def converts(*_):
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            for _ in range(1000):
+                pass
+        except KeyboardInterrupt:
+            raise RuntimeError("Unable to convert call argument '0' to Python object") from None
+        raise AssertionError
+
+    monkeypatch.setattr(command_line, "run", converts)
+    assert command_line._explained(["topic", "list"]) == 2
+    assert capsys.readouterr().err == ""

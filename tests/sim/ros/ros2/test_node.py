@@ -69,3 +69,17 @@ def test_nodes_that_share_a_name_are_counted_and_told(ros2, robot, ros_domain):
         context.try_shutdown()
     assert (code, text.split().count("/robot/driver")) == (0, 2)
     assert "nodes in the graph that share an exact name" in errors
+
+
+def test_a_node_that_ends_while_it_is_looked_at_is_one_sentence(robot, ros_domain, monkeypatch):
+    import argparse
+
+    from gz_course.sim.ros.ros2.command.node import info
+    from gz_course.sim.ros.ros2.errors import CommandError
+    from gz_course.sim.ros.ros2.graph import destroy_ended
+
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(ros_domain))
+    monkeypatch.setattr(info, "find_node", lambda *_: "/gone")
+    with pytest.raises(CommandError, match="The node '/gone' ended while it was looked at"):
+        info.main(argparse.Namespace(spin_time=None, use_sim_time=False, node_name="/gone", include_hidden=False))
+    destroy_ended()

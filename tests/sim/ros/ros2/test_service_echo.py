@@ -50,8 +50,8 @@ def test_echo_prints_every_event_with_its_content(observed, start):
     command.wait_for("as you wish")
     command.wait_for("---", times=6)
     command.process.send_signal(signal.SIGINT)
-    code, text, _ = command.wait()
-    assert code == 2
+    code, text, errors = command.wait()
+    assert (code, errors) == (2, "")
     events = list(yaml.safe_load_all(text.rsplit("---", 1)[0]))
     assert list(events[0]) == ["info", "request", "response"]
     assert list(events[0]["info"]) == ["event_type", "stamp", "client_gid", "sequence_number"]
