@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
+from functools import lru_cache
 
 _LONGEST = 200  # compared characters; bounded, because names come from untrusted files and networks
 _MOST = 5000  # compared names
@@ -20,6 +21,17 @@ def nearest_name(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
         originals.setdefault(each[:_LONGEST].lower(), each)
     close = get_close_matches(name[:_LONGEST].lower(), originals, n=1, cutoff=cutoff)
     return originals[close[0]] if close else ""
+
+
+def most_similar(name: str, known: Iterable[str], most: int) -> list[str]:
+    """Return at most so many known names, the most similar to `name` first. The name itself is never returned."""
+    others = [each for each in dict.fromkeys(known) if each != name][:_MOST]
+    return sorted(others, key=lambda each: -_likeness(name[:_LONGEST], each[:_LONGEST]))[:most]
+
+
+@lru_cache(4096)
+def _likeness(name: str, other: str) -> float:
+    return SequenceMatcher(None, name, other).ratio()
 
 
 def did_you_mean(name: str, known: Iterable[str], *, listing: str = "", cutoff: float = 0.6) -> str:

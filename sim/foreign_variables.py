@@ -12,7 +12,7 @@ from pathlib import Path
 
 MIDDLEWARE = "rmw_fastrtps_cpp"
 _RMW = "RMW_IMPLEMENTATION"
-# Source: mujoco/gl_context.py and rerun_sdk/rerun of the wheels
+# Source: mujoco/gl_context.py, rerun/__init__.py and rerun/error_utils.py of the wheels
 ON, OFF = ("1", "true", "on", "enable", "enabled"), ("0", "false", "off", "disable", "disabled")
 # Variable -> whether a value of it holds here; and why another does not.
 RULES: Mapping[str, tuple[Callable[[str], bool], str]] = {
@@ -25,7 +25,11 @@ RULES: Mapping[str, tuple[Callable[[str], bool], str]] = {
         lambda value: value.strip().lower() in ("", "glfw", "egl", "osmesa", *ON, *OFF),
         "MuJoCo knows glfw, egl and osmesa",
     ),
-    "RERUN": (lambda value: value.lower() not in OFF, "every run is recorded"),
+    "RERUN": (lambda value: value.lower() in ("", *ON), "every run is recorded"),
+    "RERUN_STRICT": (
+        lambda value: value.lower() in ("0", "false", "off", "no", "1", "true", "on", "yes"),
+        "Rerun knows on and off",
+    ),
 }
 
 
@@ -42,8 +46,8 @@ def removed(environment: MutableMapping[str, str], *, ros: bool = True) -> list[
     """
     sentences = []
     for name, (holds, why) in RULES.items():
-        value = environment.get(name, "")
-        if holds(value) or (name == _RMW and (not ros or _is_sourced(value, environment))):
+        value = environment.get(name)
+        if value is None or holds(value) or (name == _RMW and (not ros or _is_sourced(value, environment))):
             continue
         del environment[name]
         sentences.append(f"{name}={value} is ignored: {why}")

@@ -39,6 +39,11 @@ class _Filter:
         return getattr(self._stream, name)
 
 
+def unguarded(stream: TextIO) -> TextIO:
+    """Return the stream behind the filter, for who writes control codes of its own and replaces those of others."""
+    return stream._stream if isinstance(stream, _Filter) else stream
+
+
 def guard() -> None:
     """Let this process print no control codes from now on; bytes, and what its children print, are not changed."""
     for name in ("stdout", "stderr"):

@@ -29,7 +29,7 @@ def find_commands(folders: Iterable[str | Path] | None = None) -> dict[str, Path
     return dict(sorted(found.items()))
 
 
-def _summary(path: Path) -> str:
+def summary(path: Path) -> str:
     """Return the first line of the docstring of a file, without importing it."""
     try:
         text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
@@ -40,7 +40,7 @@ def _summary(path: Path) -> str:
 
 def _help(commands: dict[str, Path]) -> str:
     width = max((len(name) for name in commands), default=0)
-    lines = [f"  {name:<{width}}  {_summary(path)}".rstrip() for name, path in commands.items()]
+    lines = [f"  {name:<{width}}  {summary(path)}".rstrip() for name, path in commands.items()]
     return "\n".join(
         [
             "The gz command: simulation and messages as in Gazebo.",
@@ -97,7 +97,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return command_line.UNKNOWN_OPTION if is_option else 2
     path = commands[first]
     module = f"gz_course.sim.gz.{path.parents[1].name}.commands.{first}"
-    code = command_line.run(module, f"gz {first}", arguments[1:], _summary(path))
+    code = command_line.run(module, f"gz {first}", arguments[1:], summary(path))
     if argv is None:
         command_line.leave_signals()
     return code

@@ -16,9 +16,11 @@ import sys
 import threading
 from collections.abc import Sequence
 from importlib import import_module
+from types import FrameType
 from typing import Any, NoReturn
 
 from gz_course.sim.did_you_mean import did_you_mean
+from gz_course.sim.postponed_signal import postponed
 
 BAD_VALUE, NEEDS_OTHER, EXCLUDES_OTHER, UNKNOWN_OPTION, NO_VALUE = 104, 107, 108, 109, 114
 _INTERRUPTED = 130
@@ -31,13 +33,13 @@ class Parser(argparse.ArgumentParser):
     """An option parser with required companion options and mutually exclusive ones."""
 
     def __init__(self, program: str, description: str) -> None:
-        """Add `--help` and `--version`; `program` is what the user has typed so far, such as `gz topic`."""
+        """Add `--help`, `--version` and `--versions`; `program` is what the user has typed, such as `gz topic`."""
         # "resolve": a sub-command may have another use for -v.
         super().__init__(prog=program, description=description, allow_abbrev=False, conflict_handler="resolve")
         self._needs: list[tuple[str, tuple[str, ...]]] = []
         self._excludes: list[tuple[str, ...]] = []
         self._commands: tuple[str, ...] = ()
-        self.add_argument("-v", "--version", action=Version, help="the version, and nothing else")
+        self.add_argument("-v", "--version", "--versions", action=Version, help="the version, and nothing else")
 
     def needs(self, option: str, *companions: str) -> None:
         """Require all companions (long names) whenever `option` is used."""
@@ -140,7 +142,7 @@ def run(module_name: str, program: str, arguments: Sequence[str], description: s
     error: its sentence is printed and the code is 1. SIGINT and SIGTERM arrive as KeyboardInterrupt, unless the module
     handles them itself. A closed output pipe ends the command silently.
     """
-    before = [_handle(number, signal.default_int_handler) for number in _SIGNALS]
+    before = [_handle(number, _interrupt) for number in _SIGNALS]
     try:
         if hasattr(sys.stdout, "reconfigure"):
             sys.stdout.reconfigure(line_buffering=True)
@@ -167,6 +169,11 @@ def leave_signals() -> None:
     """Ignore SIGINT and SIGTERM from now on, so that shutdown messages are sent without interruption."""
     for number in _SIGNALS:
         _handle(number, signal.SIG_IGN)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    if not postponed(number, frame):
+        raise KeyboardInterrupt
 
 
 def _handle(number: int, handler: Any) -> Any:

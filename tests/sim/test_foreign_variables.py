@@ -33,6 +33,12 @@ def test_what_mujoco_knows_is_left_alone(value):
     assert environment == {"MUJOCO_GL": value}
 
 
+def test_what_would_end_rerun_at_its_import_is_removed():
+    environment = {"RERUN_STRICT": "nonsense", "RERUN": "perhaps"}
+    assert len(removed(environment)) == 2 and environment == {}
+    assert removed({"RERUN_STRICT": "Yes", "RERUN": "on"}) == []
+
+
 def test_the_middleware_of_a_sourced_ros_is_left_alone(tmp_path):
     (tmp_path / "lib").mkdir()
     (tmp_path / "lib" / "librmw_cyclonedds_cpp.so").touch()

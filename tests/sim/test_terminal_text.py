@@ -44,6 +44,14 @@ COMMANDS = [
     "course show {file}",
     "course score {file}",
     "course grade 03 --submission {file}",
+    "course grade-all 03 {students} --out {folder}/{name}_grades",
+    "course similar 03 {students} --out {folder}/{name}_similar",
+    "course init {folder}/{name}_course",
+    "course update {folder}/{name}_course",
+    "course new {name}",
+    "course list {name}",
+    "launch_test {name}",
+    "launch_test {file}",
     "bridge_types --get-ros-to-gz {name}",
     "bridge_types {name}",
     "ros_gz_bridge_lint {file}",
@@ -93,7 +101,13 @@ def inputs(tmp_path_factory):
     writer.add_topic(topic, definition(topic.type))
     writer.write(topic.name, 1, 1, string("said"))
     writer.close()
-    return {"name": HOSTILE, "file": file, "world": world, "named": named, "bag": bag}
+    students = folder / "students"
+    (students / HOSTILE).mkdir(parents=True)
+    (students / HOSTILE / "teleop_node.py").write_text(f"{HOSTILE}(")
+    return {
+        **{"name": HOSTILE, "file": file, "world": world, "named": named, "bag": bag},
+        **{"folder": folder, "students": students},
+    }
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -116,7 +130,7 @@ def test_every_program_is_asked():
     asked = {tuple(command.split()[2:4]) for command in COMMANDS if command.startswith("ros2 run ")}
     assert {(path.parent.name, path.name) for path in LIBRARY.glob("*/*")} <= asked
     of_the_package = {each.name for each in entry_points(group="console_scripts") if "gz_course." in each.value}
-    assert of_the_package - {"launch_test"} <= {command.split()[0] for command in COMMANDS}
+    assert of_the_package <= {command.split()[0] for command in COMMANDS}
 
 
 def test_what_a_terminal_obeys_is_replaced():

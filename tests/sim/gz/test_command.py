@@ -1,6 +1,7 @@
 import signal
 import subprocess
 import sys
+from importlib import metadata
 
 import pytest
 
@@ -122,3 +123,10 @@ def test_the_installed_command_answers():
         [sys.executable, "-m", "gz_course.sim.gz.command"], capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0
+
+
+@pytest.mark.parametrize("name", command.find_commands())
+def test_every_command_has_its_version(name, capsys):
+    with pytest.raises(SystemExit) as ended:
+        command.main([name, "--versions"])
+    assert (ended.value.code, capsys.readouterr().out) == (0, f"{metadata.version('gz-ros2-course')}\n")

@@ -10,6 +10,7 @@ from gz_course.sim.gz.msgs.discovery_pb2 import Discovery
 from gz_course.sim.gz.transport import discovery, peers
 from gz_course.sim.gz.transport.environment import NetworkSettings
 from gz_course.sim.gz.transport.topic_discovery import TopicDiscovery
+from gz_course.tests.own_time import OwnTime
 
 OTHER = "11111111-1111-4111-8111-111111111111"
 OWN = "22222222-2222-4222-8222-222222222222"
@@ -37,7 +38,7 @@ def clock(monkeypatch):
             return self.now
 
     clock = Clock()
-    monkeypatch.setattr(discovery, "time", clock)
+    monkeypatch.setattr(discovery, "time", OwnTime(monotonic=clock.monotonic))
     return clock
 
 

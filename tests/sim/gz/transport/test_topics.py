@@ -9,6 +9,7 @@ from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.transport import AdvertiseMessageOptions, Node, NodeOptions, Scope, SubscribeOptions
 from gz_course.sim.gz.transport import throttle as throttle_module
 from gz_course.sim.gz.transport.options import UNTHROTTLED
+from gz_course.tests.own_time import OwnTime
 
 
 @pytest.fixture(params=[Scope.PROCESS, Scope.ALL], ids=["process", "all"])
@@ -147,7 +148,7 @@ def test_a_rate_limit_drops_what_is_too_much(node, side, monkeypatch):
             return self.now
 
     clock = Clock()
-    monkeypatch.setattr(throttle_module, "time", clock)
+    monkeypatch.setattr(throttle_module, "time", OwnTime(monotonic_ns=clock.monotonic_ns))
     heard = []
     limit, free = 10, UNTHROTTLED
     rates = (limit, free) if side == "publisher" else (free, limit)
