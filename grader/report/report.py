@@ -7,15 +7,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.exercise.visibility import ALWAYS
 from gz_course.grader.printable import storable
+from gz_course.grader.report.ranking import Place
 
 if TYPE_CHECKING:
     from gz_course.grader.record.reading import Recording
-    from gz_course.grader.score.score import CheckResult, Score
+    from gz_course.grader.score.consequences import CheckResult
+    from gz_course.grader.score.score import Score
 
 # The meaning of each outcome in a sentence.
 OUTCOMES = {
@@ -53,6 +56,7 @@ class TrialReport:
     recording: Path
     truth_sha256: str
     read: Recording | None = field(default=None, repr=False, compare=False)
+    visibility: str = ALWAYS
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave the content behind when a report goes to another process: its file has it."""
@@ -83,6 +87,8 @@ class Report:
     hints_shown: int = 1  # of a check, at most
     after: tuple[str, ...] = ()  # sentences for full marks: other ways, what to try, the next exercise
     untouched: bool = False  # the submission is the starter
+    tried: bool = False  # whether a search for what helps has been made
+    leaderboard: tuple[Place, ...] = ()  # the numbers by which a class is ranked, as far as they count
     notes: tuple[str, ...] = ()  # what a reader must know about the origin of the score
 
     @property
@@ -115,6 +121,13 @@ class Report:
         lines = [("expected", finding.expected), ("measured", finding.measured)]
         if finding.at_s is not None:
             lines.append(("when", f"{finding.at_s:.2f} s of simulated time"))
+        if check.kept:
+            kept = f"{points(check.kept)} of {points(check.spec.points)}"
+            why = check.why or "all checks together lose at most 40 % for one misconception"
+            lines.append(("kept", f"{kept} points: {why}"))
+        elif check.points and not finding.passed:
+            earned = f"{points(check.points)} of {points(check.spec.points)}"
+            lines.append(("earned", f"{earned} points: they fall with the distance from what was expected"))
         return [*lines, ("hint", check.spec.hint)] if self.measured and not finding.passed else lines
 
     def as_json(self) -> str:
@@ -133,6 +146,7 @@ class Report:
             "diagnosis": self.score.feedback,
             "first_sentence": self.score.diagnosis,
             "notes": list(self.notes),
+            "leaderboard": [asdict(each) for each in self.leaderboard],
             "checks": [
                 {
                     "id": check.spec.id,
@@ -155,6 +169,8 @@ class Report:
                     "outcome": trial.score.outcome,
                     "recording": str(trial.recording),
                     "truth_sha256": trial.truth_sha256,
+                    "diagnosis": trial.score.feedback,
+                    "checks": [_finding(check) for check in trial.score.checks],
                 }
                 for trial in self.trials
             ],
@@ -169,6 +185,18 @@ class Report:
             "real_time_factor": self.sim_seconds / run_wall if run_wall else None,
             "versions": self.versions,
         }
+
+
+def _finding(check: CheckResult) -> dict[str, Any]:
+    """Return what a check found in one trial."""
+    finding = check.finding
+    return {
+        "id": check.spec.id,
+        "status": "passed" if finding.passed else "failed",
+        "expected": finding.expected,
+        "measured": finding.measured,
+        "at_s": finding.at_s,
+    }
 
 
 def points(value: float) -> str:

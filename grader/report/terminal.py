@@ -19,10 +19,12 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from gz_course.grader.console import GuardedConsole
 from gz_course.grader.printable import shown
 from gz_course.grader.report.node_log import log_of
 from gz_course.grader.report.report import Report, points
-from gz_course.grader.score.score import CheckResult
+from gz_course.grader.score.consequences import CheckResult
+from gz_course.sim.terminal_text import unguarded
 
 NO_LIMIT = 1 << 20
 MARKS = {True: ("pass", "green"), False: ("FAIL", "bold red")}
@@ -51,14 +53,14 @@ def print_report(
     printed.
     Raises UsageError if the recording of a node that died cannot be read.
     """
-    target = file or sys.stdout
+    target = file or unguarded(sys.stdout)
     printed = io.StringIO()
-    told_to = Console(file=target, width=width)
-    console = Console(
+    told_to = GuardedConsole(file=target, width=width)
+    console = GuardedConsole(
         file=printed,
         width=max(told_to.width, NARROWEST),
         force_terminal=told_to.is_terminal,
-        color_system=told_to.color_system,  # type: ignore[arg-type]
+        color_system=told_to.color_system,
         no_color=told_to.no_color,
         highlight=False,
     )
@@ -123,6 +125,8 @@ def _print_hint(report: Report, console: Console) -> None:
     console.print(_hanging(_text("hint:"), _text(first.spec.hint)))
     if len(first.spec.hints) > 1 and report.hints_shown > 1:
         console.print(_text(f"      course hint {report.exercise} shows the next one."))
+    if not report.tried:
+        console.print(_text(f"      course explain {report.exercise} tries which line decides."))
 
 
 def _print_check(check: CheckResult, report: Report, console: Console, *, brief: bool) -> None:

@@ -9,6 +9,8 @@ quality counts only after success. `gate` is one gate or a list:
     gate = { signal = "truth/robot/x", falls_to = -1.0, otherwise = "the robot never drove back" }
     gate = { check = "arrives", otherwise = "the robot never arrived" }      # another check must pass
 
+Points of any check may fall with an error, as `partial.py` says: `linear = { full = 0.05, none = 0.3 }`.
+
 Any check may ask why velocity commands are wrong; `explanations/commands.py` tries what programs with a common
 misconception send. The speed [m/s] and the time [s] are those that the exercise asks for:
 
@@ -29,6 +31,7 @@ from gz_course.grader.feedback.predictions.answers import Explanation
 from gz_course.grader.feedback.predictions.commands import WantedDrive
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.registry import modules
+from gz_course.grader.score.partial import Linear
 from gz_course.sim.did_you_mean import did_you_mean
 
 
@@ -50,7 +53,9 @@ class Finding:
     `gated` marks a check that failed only because its gate did: another check gives the reason. `timing` marks a check
     that, if it failed, saw the right thing at the wrong time or for the wrong time: perhaps a node reads another clock.
     `explanation` names the misconception that fits what was seen; empty if none does. `answers` is the same with all
-    that fit, where others about the same scans may tell which of them is meant.
+    that fit, where others about the same scans may tell which of them is meant. `nothing` marks a check that had
+    nothing to look at: it is no cause for which other checks fail (`consequences.py`). `value` is
+    the number that was measured, in the unit of the check, `credit` the share of the points that a failed check earns.
     """
 
     passed: bool
@@ -62,6 +67,9 @@ class Finding:
     timing: bool = False
     explanation: str = ""
     answers: Explanation | None = None
+    nothing: bool = False
+    value: float | None = None
+    credit: float = 0.0
 
 
 Kind = Callable[[Recording, Table], Finding]
@@ -89,8 +97,13 @@ def check_kinds() -> dict[str, Kind]:
     return dict(_kinds)
 
 
-def perform_all(specs: Sequence[CheckSpec], recording: Recording, folder: Path | None = None) -> list[Finding]:
-    """Apply all checks of an exercise, whose manifest lies in `folder`, to a recording.
+def perform_all(
+    specs: Sequence[CheckSpec],
+    recording: Recording,
+    folder: Path | None = None,
+    performing: Callable[..., Finding] | None = None,
+) -> list[Finding]:
+    """Apply all checks of an exercise, whose manifest lies in `folder`, to a recording, by `perform`.
 
     Raises ManifestError if the manifest's parameters do not fit the kinds, or if gates depend on each other in a cycle.
     """
@@ -109,7 +122,7 @@ def perform_all(specs: Sequence[CheckSpec], recording: Recording, folder: Path |
             hint = did_you_mean(id, known, listing="known")
             raise ManifestError(f"check {waiting[-1]!r}: its gate names no check: {id!r}{hint}")
         waiting.append(id)
-        found[id] = perform(known[id], recording, folder, finding_of)
+        found[id] = (performing or perform)(known[id], recording, folder, finding_of)
         waiting.pop()
         return found[id]
 
@@ -121,8 +134,11 @@ def perform(
     recording: Recording,
     folder: Path | None = None,
     finding_of: Callable[[str], Finding] | None = None,
+    kind: Kind | None = None,
 ) -> Finding:
     """Apply one check to a recording; `finding_of` returns the finding of another check, for gates.
+
+    `kind` stands in for the kind that the check names.
 
     Raises ManifestError if the manifest's parameters do not fit the kind.
     """
@@ -136,13 +152,16 @@ def perform(
         several = isinstance(spec.parameters["gate"], list)
         gates = parameters.tables("gate") if several else [parameters.table("gate")]
     wanted = WantedDrive.read(parameters.table("explain")) if parameters.has("explain") else None
-    finding = kinds[spec.kind](recording, parameters)
+    linear = Linear.read(parameters.table("linear"), spec.kind) if parameters.has("linear") else None
+    finding = (kind or kinds[spec.kind])(recording, parameters)
     parameters.end()
+    if linear and not finding.passed:
+        finding = replace(finding, credit=linear.credit(recording, finding.value))
     if wanted and not finding.passed:
         finding = replace(finding, explanation=wanted.explain(recording))
     closed = [sentence for gate in gates if (sentence := _closed(gate, recording, finding_of))]
     if closed:
-        return replace(finding, passed=False, measured=closed[0], at_s=None, gated=True)
+        return replace(finding, passed=False, measured=closed[0], at_s=None, gated=True, credit=0.0)
     return finding
 
 

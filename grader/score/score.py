@@ -7,32 +7,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gz_course.grader.exercise import CheckSpec, Exercise
+from gz_course.grader.exercise import Exercise
 from gz_course.grader.feedback.predictions.answers import agreed
 from gz_course.grader.feedback.recorded.places import made_in
 from gz_course.grader.feedback.rules import faults_kept, recorded_faults
 from gz_course.grader.kinds.kind import find_kind
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding, perform_all
+from gz_course.grader.score.consequences import CheckResult, shared
 from gz_course.grader.score.diagnosis import diagnose
-from gz_course.grader.score.first_sentence import split_first
+from gz_course.grader.score.first_sentence import first_of
 from gz_course.grader.score.topic_faults import silent
 
 NOT_RUN = Finding(False, "a file that runs", "nothing was run")
 SPOILT = Finding(False, "a run that nobody tampers with", "not counted: the run was tampered with")
 TRUTH = ("x", "y", "z", "qw", "qx", "qy", "qz")
-
-
-@dataclass(frozen=True)
-class CheckResult:
-    """One line of the report."""
-
-    spec: CheckSpec
-    finding: Finding
-
-    @property
-    def points(self) -> float:
-        return self.spec.points if self.finding.passed else 0.0
 
 
 @dataclass(frozen=True)
@@ -77,12 +66,13 @@ def _score(recording: Recording, exercise: Exercise) -> Score:
         findings = [SPOILT] * len(specs)
     else:
         findings = _agreed(perform_all(specs, recording, exercise.grading))
-    checks = tuple(map(CheckResult, specs, findings))
+    checks = shared(list(map(CheckResult, specs, findings)))
     failed = [check for check in checks if not check.finding.passed]
     if outcome == "timeout" and not failed:
         outcome = "graded"  # all that was asked for was seen, whatever could not be followed beside it
     # A check that names the misconception says more than that nothing was published.
     named = any(check.finding.explanation and not check.finding.gated for check in failed)
+    title = ""
     diagnosis = diagnose(recording, (look for look in explained.looks if not (named and look is silent)))
     if failed and not diagnosis:
         worst = max(failed, key=lambda check: (not check.finding.gated, check.spec.points))
@@ -91,11 +81,11 @@ def _score(recording: Recording, exercise: Exercise) -> Score:
         other = next((check for check in failed if check.finding.explanation and not check.finding.gated), None)
         if other is not None and not why:
             remarks.append(f"{other.spec.title}: {other.finding.explanation}.")
-        said = f"{worst.spec.title}: {why or seen}."
+        said = f"{(title := worst.spec.title)}: {why or seen}."
         where = "" if why or any(remarks) else made_in(recording.facts())
         seen = f"Measured: {seen}." if why else ""
         diagnosis = " ".join(filter(None, (*remarks, said, where, seen)))
-    first, details = split_first(diagnosis) if failed else ("", "")
+    first, details = first_of(diagnosis, title) if failed else ("", "")
     if failed and (begin := recording.facts().get("untouched")):
         first, details = str(begin), ""  # nothing is wrong yet
     return Score(checks, outcome, first, truth_sha256(recording, exercise.robot), details)

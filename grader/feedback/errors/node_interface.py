@@ -136,6 +136,17 @@ def arguments(error: str, code: str) -> str:
 
 
 @explanation
+def newer_init(error: str, code: str) -> str:
+    """Explain `with rclpy.init():`, for which rclpy returns an object from ROS 2 Kilted on."""
+    if "rclpy.init(" in code and re.search(r"context manager protocol|__enter__", error):
+        return (
+            "rclpy.init() returns None on Jazzy; only in newer distributions does it return what `with` needs: call it "
+            "on a line of its own"
+        )
+    return ""
+
+
+@explanation
 def own_arguments(error: str, code: str) -> str:
     """Explain a call in the student's own file of a method of theirs with the wrong number of arguments."""
     match = re.search(

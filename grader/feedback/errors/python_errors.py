@@ -19,6 +19,9 @@ ValueError: math domain error|expected a (?:nonnegative|positive) input
     the argument lies outside of the function: acos and asin take -1 to 1, sqrt no negative number, log no 0
 could not convert string to float
     that text is no number as Python writes it: digits with a point, '0.5'
+ValueError: no signature found for builtin
+    rclpy asks a callback for its parameters, and this method of Python's own names none: write a function, or a lambda,
+    that calls it
 RecursionError
     a function calls itself without end: self.publish(...) inside of def publish is the function itself, not the
     publisher's
@@ -58,8 +61,10 @@ AttributeError: 'Future' object has no attribute '(\w+)'
     a Future is no answer yet: when it is done(), .result() is the answer, .result().{0} its field
 KeyError: (.+)$
     the dictionary has no entry {0}: dictionary.get(key) returns None then
-ModuleNotFoundError: No module named '(scipy|cv2|pandas|matplotlib|sklearn|torch|gazebo_msgs)\b
-    {0} is not part of the course: Python, NumPy and the packages of ROS are
+ModuleNotFoundError: No module named '(scipy|cv2)\b
+    {0} is not installed here: pip install 'gz-ros2-course[chapters]' installs it
+ModuleNotFoundError: No module named '(pandas|matplotlib|sklearn|torch|gazebo_msgs)\b
+    {0} is not part of the course: Python, NumPy, SciPy, OpenCV and the packages of ROS are
 """)
 # Pattern of the error's first line -> what to change. {0}, {1} are the groups of the pattern.
 MEANINGS = table(r"""
@@ -109,6 +114,8 @@ TypeError: 'property' object is not iterable
     frame names are not empty and do not begin with a slash
 RCLError: .*(?:context is invalid|context is not valid)|InvalidHandle|cannot use Destroyable
     rclpy.shutdown(), or destroy_node(), was called before: nothing can be published or read after it
+^MemoryError
+    more memory was asked for than there is: a list, an array or a text is far longer than it was meant to be
 NotInitializedException
     rclpy.init() must be called before the first node is made
 TypeError: Node\.create_(?:subscription|publisher)\(\) missing 1 required .*'qos_profile'

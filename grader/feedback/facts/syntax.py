@@ -223,3 +223,16 @@ def _work(tree: ast.AST) -> int:
         level = [child for node in level for child in children(node)]
         depth += 1
     return work if depth <= DEEPEST else MOST_WORK + 1
+
+
+def returned_by(function: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> list[ast.expr | None]:
+    """Return the values that a function itself returns, without the functions inside it; None for a bare return."""
+    if isinstance(function, ast.Lambda):
+        return [function.body]
+    inner = {
+        id(each)
+        for node in nodes_of(function, ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
+        if node is not function
+        for each in walk(node)
+    }
+    return [each.value for each in nodes_of(function, ast.Return) if id(each) not in inner]

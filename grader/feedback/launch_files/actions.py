@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Mapping
 
-from gz_course.grader.feedback.facts.syntax import called, last_name, nodes_of, parsed, unparse, walk
+from gz_course.grader.feedback.facts.syntax import called, last_name, nodes_of, parsed, walk
 from gz_course.grader.feedback.launch_files import launch_slip
 from gz_course.grader.feedback.launch_files.reading import ACTIONS, PROCESSES, LaunchFile, Place, argument, text
 
@@ -199,28 +199,4 @@ def long_waits(file: LaunchFile) -> Iterator[Place]:
             yield (
                 call.lineno,
                 f"this TimerAction waits {value:g} s (its period is in seconds) before it starts anything",
-            )
-
-
-@launch_slip
-def swapped_conditions(file: LaunchFile) -> Iterator[Place]:
-    """Find a `gz sim` with -r under the condition that the world is to be paused, or one without it under the other."""
-    for call in file.calls("ExecuteProcess", "IncludeLaunchDescription"):
-        condition = file.value(argument(call, "condition"))
-        if not isinstance(condition, ast.Call) or not condition.args:
-            continue
-        kind, name = last_name(condition.func), file.configuration(condition.args[0])
-        if kind not in ("IfCondition", "UnlessCondition") or not name.startswith("pause"):
-            continue
-        words = [text(each) for part in (*call.args, *call.keywords) for each in walk(part)]
-        if not endless(call) or any("$" in word for word in words):
-            continue
-        runs = any("-r" in word.split() for word in words)
-        if runs == (kind == "IfCondition"):
-            other = "UnlessCondition" if runs else "IfCondition"
-            yield (
-                call.lineno,
-                f"this gz sim has {'-r, so its world runs' if runs else 'no -r, so its world is paused'}, and "
-                f"{kind}({unparse(condition.args[0])}) starts it if {name} is {'true' if runs else 'false'}: "
-                f"{other} is the right one here",
             )

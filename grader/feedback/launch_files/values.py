@@ -17,7 +17,7 @@ from gz_course.grader.feedback.facts.syntax import last_name, unparse, walk
 from gz_course.grader.feedback.launch_files import MOST, launch_fact, launch_slip
 from gz_course.grader.feedback.launch_files.reading import LaunchFile, Place, argument, text
 
-BEFORE = ("actions", "unread")
+BEFORE = ("actions", "conditional", "unread")
 
 
 TRUTHS = frozenset({"True", "False"})

@@ -17,7 +17,7 @@ from gz_course.grader.report.node_log import log_of
 from gz_course.grader.report.report import Report, points
 
 if TYPE_CHECKING:
-    from gz_course.grader.score.score import CheckResult
+    from gz_course.grader.score.consequences import CheckResult
 
 
 def as_junit(report: Report) -> str:

@@ -1,7 +1,7 @@
 """The report for PrairieLearn's external grader: `results.json`, one test for each check, and a picture of the run.
 
 PrairieLearn's score is a part of full marks, from 0 to 1. A submission that could not even start is not gradable there:
-it costs no attempt. Neither does a fault of the machine.
+it costs no attempt. Neither does a fault of the machine. What hidden trials found is not told (`seen.py`).
 
 Source: PrairieLearn, "External Grading", https://docs.prairielearn.com/externalGrading/ ("Grading results")
 """
@@ -12,13 +12,15 @@ import base64
 import json
 from typing import TYPE_CHECKING, Any
 
+from gz_course.grader.exercise.visibility import ALWAYS
 from gz_course.grader.printable import storable
 from gz_course.grader.report.format import Format
-from gz_course.grader.report.node_log import log_of
-from gz_course.grader.report.report import OUTCOMES, Report, points
+from gz_course.grader.report.node_log import node_log
+from gz_course.grader.report.report import OUTCOMES, Report, TrialReport, points
+from gz_course.grader.report.seen import Seen, seen_of
 
 if TYPE_CHECKING:
-    from gz_course.grader.score.score import CheckResult
+    from gz_course.grader.score.consequences import CheckResult
 
 LARGEST = 1_000_000  # [bytes] of results.json that PrairieLearn takes
 LINES = 20  # of the end of the node's log
@@ -42,15 +44,17 @@ def as_prairielearn(report: Report) -> str:
 def as_dict(report: Report) -> dict[str, Any]:
     started = bool(report.sim_seconds) or report.score.outcome not in ("student_error", "infra")
     verdict = f"{points(report.score.points)} of {points(report.max_score)} points. {OUTCOMES[report.score.outcome]}"
-    said = log_of(report, 0, LINES)
+    told = seen_of(report)
+    trial = told.trial(report)
+    said = node_log(trial.content(), 0, LINES) if trial is not None and not report.full_marks else None
     data = report.as_dict()
     results: dict[str, Any] = {
         "gradable": started,
         "score": min(1.0, max(0.0, report.score.points / report.max_score)),
-        "message": " ".join(line for line in (report.score.feedback, verdict, *report.notes) if line),
-        "output": "" if report.full_marks else f"What {said.who} said last:\n{said.as_text() or 'nothing'}",
-        "tests": [_test(check, report) for check in report.score.checks],
-        "images": _images(report) if report.sim_seconds else [],
+        "message": " ".join(line for line in (told.diagnosis, verdict, told.summary, *report.notes) if line),
+        "output": "" if said is None else f"What {said.who} said last:\n{said.as_text() or 'nothing'}",
+        "tests": [_test(check, report, told) for check in report.score.checks if check.spec.visibility == ALWAYS],
+        "images": _images(report, trial) if report.sim_seconds and trial is not None else [],
         "extra": {key: data[key] for key in ("exercise", "outcome", "truth_sha256")},
     }
     if not started:
@@ -58,8 +62,8 @@ def as_dict(report: Report) -> dict[str, Any]:
     return results
 
 
-def _test(check: CheckResult, report: Report) -> dict[str, Any]:
-    told = dict(report.told(check))
+def _test(check: CheckResult, report: Report, seen: Seen) -> dict[str, Any]:
+    told = dict(seen.lines(report, check))
     return {
         "name": check.spec.title,
         "description": told.get("expected", ""),
@@ -70,11 +74,10 @@ def _test(check: CheckResult, report: Report) -> dict[str, Any]:
     }
 
 
-def _images(report: Report) -> list[dict[str, str]]:
+def _images(report: Report, trial: TrialReport) -> list[dict[str, str]]:
     """Return the world from above with the whole path, if there is a world."""
     from gz_course.grader.report.html.from_above import Map
 
-    trial = report.shown_trial
     recording = trial.content()
     drawn = Map(recording, str(recording.properties("run").get("robot", "robot")))
     if not drawn:

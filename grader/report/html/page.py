@@ -24,7 +24,7 @@ from gz_course.grader.report.html.plot import key
 from gz_course.grader.report.html.signals import Figure, figures_of, speeds_of
 from gz_course.grader.report.node_log import node_log
 from gz_course.grader.report.report import OUTCOMES, Report, TrialReport, points
-from gz_course.grader.score.score import CheckResult
+from gz_course.grader.score.consequences import CheckResult
 
 FOLDER = Path(__file__).parent
 LONGEST = 4000  # characters of one text
@@ -45,6 +45,7 @@ class CheckRow:
     max_points: float
     expected: str
     measured: str
+    kept: str
     when: str
     hints: tuple[str, ...]
     trial: str
@@ -186,6 +187,7 @@ def _check_row(check: CheckResult, report: Report) -> CheckRow:
         max_points=check.spec.points,
         expected=finding.expected,
         measured=finding.measured,
+        kept=told.get("kept", ""),
         when="" if finding.at_s is None else f"{finding.at_s:.2f} s",
         # Of a closed gate another check gives the reason.
         hints=() if finding.gated or "hint" not in told else check.spec.hints[: report.hints_shown],

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from markupsafe import Markup, escape
 
-WIDTH, HEIGHT = 720, 190
-LEFT, RIGHT, TOP, BOTTOM = 62, 14, 20, 34  # [pixels] margins around the plotting area
+WIDTH, HEIGHT = 720, 206
+# [pixels] Margins around the plotting area, with room for the larger labels of a narrow page.
+LEFT, RIGHT, TOP, BOTTOM = 66, 14, 25, 48
 HUGE = 1e150  # larger values are clipped to this, so that their differences stay finite
-MOST_TICKS = 6
+MOST_TICKS, MOST_LEVELS = 6, 4  # along time, and along the values
 NARROWEST = 10.0  # [pixels] smallest visible width of a band
 FLAT = 1e-6  # a smaller range is a constant with rounding errors
 COLUMN = 0.5  # [pixels] samples within this distance are drawn as one
@@ -76,18 +77,20 @@ def plot(
             left, right = left - NARROWEST / 2, left + NARROWEST / 2
         width, height = right - left, max(below - above, 2.0)
         parts.append(f'<rect class="band" x="{left:.1f}" y="{above:.1f}" width="{width:.1f}" height="{height:.1f}"/>')
-    for value in ticks(low, high):
+    for value in ticks(low, high, MOST_LEVELS):
         level = f"{y(value):.1f}"
         parts.append(f'<line class="grid" x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{level}" y2="{level}"/>')
-        parts.append(f'<text class="tick" x="{LEFT - 6}" y="{level}" dy="4" text-anchor="end">{number(value)}</text>')
+        parts.append(
+            f'<text class="tick" x="{LEFT - 6}" y="{level}" dy=".35em" text-anchor="end">{number(value)}</text>'
+        )
     for time in ticks(0.0, end_s):
         place = f"{x(time):.1f}"
         parts.append(f'<line class="grid" x1="{place}" x2="{place}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>')
         parts.append(
-            f'<text class="tick" x="{place}" y="{HEIGHT - BOTTOM + 15}" text-anchor="middle">{number(time)}</text>'
+            f'<text class="tick" x="{place}" y="{HEIGHT - BOTTOM + 19}" text-anchor="middle">{number(time)}</text>'
         )
     middle = (LEFT + WIDTH - RIGHT) / 2
-    parts.append(f'<text class="tick" x="{middle:.0f}" y="{HEIGHT - 3}" text-anchor="middle">simulated time [s]</text>')
+    parts.append(f'<text class="tick" x="{middle:.0f}" y="{HEIGHT - 5}" text-anchor="middle">simulated time [s]</text>')
     for index, curve in enumerate(curves):
         steps = _steps([x(t) for t in curve.times.tolist()], [y(v) for v in curve.values.tolist()], x(until_s))
         if steps:
@@ -107,17 +110,17 @@ def key(index: int) -> Markup:
     return Markup(f'<svg class="key" viewBox="0 0 28 10" width="28" height="10" aria-hidden="true">{line}</svg>')
 
 
-def ticks(low: float, high: float) -> list[float]:
-    """Return at most MOST_TICKS + 1 round numbers from `low` to `high`: multiples of 1, 2 or 5 times a power of ten."""
+def ticks(low: float, high: float, most: int = MOST_TICKS) -> list[float]:
+    """Return at most `most` + 1 round numbers from `low` to `high`: multiples of 1, 2 or 5 times a power of ten."""
     span = high - low
     if not 1 / HUGE < span <= 4 * HUGE:
         return [low]
-    power = 10.0 ** math.floor(math.log10(span / MOST_TICKS))
-    step = next((s for s in (power, 2 * power, 5 * power) if s > 0 and span / s <= MOST_TICKS), 10 * power)
+    power = 10.0 ** math.floor(math.log10(span / most))
+    step = next((s for s in (power, 2 * power, 5 * power) if s > 0 and span / s <= most), 10 * power)
     if not step > 0 or abs(low) / step > 1e12:  # floating-point numbers are too coarse for ticks
         return [low, high]
     first = math.ceil(low / step - 1e-9)
-    return [i * step for i in range(first, first + MOST_TICKS + 1) if i * step <= high + step * 1e-9]
+    return [i * step for i in range(first, first + most + 1) if i * step <= high + step * 1e-9]
 
 
 def number(value: float) -> str:

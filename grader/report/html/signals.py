@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.report.html.plot import Area, Curve, Moment, number, plot
-from gz_course.grader.score.score import CheckResult
+from gz_course.grader.score.consequences import CheckResult
 
 MOST_FIGURES = 4  # plots of one check
 SPEEDS = (

@@ -31,4 +31,4 @@ def change(recording: Recording, parameters: Table) -> Finding:
     first = value_at(recording, name, start)
     moved = last - (first if first is not None else float(recording.signal(name).values[0]))
     bands = (Band(name, last - moved + low, last - moved + high, end, end),)
-    return Finding(bool(low <= moved <= high), expected, f"changed by {told(moved)}{unit}", end, bands)
+    return Finding(bool(low <= moved <= high), expected, f"changed by {told(moved)}{unit}", end, bands, value=moved)

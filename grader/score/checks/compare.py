@@ -50,12 +50,14 @@ def compare(recording: Recording, parameters: Table) -> Finding:
     right = np.abs(off) <= tolerance + 1e-9  # 1.05 - 1.0 is slightly more than 0.05 in floating point
     passed = bool(right.sum() >= share * len(right))
     measured = f"{int(right.sum())} of {len(right)} values right"
+    part = float(right.mean())
     if right.all():
-        return Finding(True, expected, measured)
+        return Finding(True, expected, measured, value=part)
     first = int(np.argmin(right))
     at = float(times[first] / 1e9)
     said = f"{told(float(values[first]))}{unit}, wanted was {told(float(wanted[first]))}{unit}"
-    return Finding(passed, expected, f"{measured}; at {told(at)} s it was {said}", None if passed else round(at, 3))
+    measured += f"; at {told(at)} s it was {said}"
+    return Finding(passed, expected, measured, None if passed else round(at, 3), value=part)
 
 
 def _wanted(reference: str, factor: float, offset: float) -> str:

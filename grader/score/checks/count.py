@@ -42,4 +42,6 @@ def count(recording: Recording, parameters: Table) -> Finding:
     if not passed and len(outside):
         measured += f"; the others were mostly {told(float(np.median(outside)))}{unit}"
     at = float(times[held][-1]) if number else None
-    return Finding(passed, expected, measured, at, (Band(name, low, high, start, end),), timing=number > 0)
+    return Finding(
+        passed, expected, measured, at, (Band(name, low, high, start, end),), timing=number > 0, value=number
+    )

@@ -49,14 +49,16 @@ def final_pose(recording: Recording, parameters: Table) -> Finding:
         return Finding(False, expected, ended if at > recording.ended_s else "nothing is known of it", None, bands)
     here = [value or 0.0 for value in place]
     measured = f"it stood at ({', '.join(map(told, here[: max(2, len(near))]))})"
+    distance = None
     passed = all(low <= here[AXES.index(axis)] <= high for axis, (low, high) in box.items())
     if near:
-        away = math.dist(near, here[: len(near)])
+        away = distance = math.dist(near, here[: len(near)])
         passed = passed and away <= radius
         measured += f", {told(away)} m away"
     if heading is not None:
         # The recorded heading is unwrapped: it counts full turns.
         off = math.inf if yaw is None else abs(math.remainder(yaw - heading, 2 * math.pi))
         passed = passed and off <= tolerance
+        distance = off if distance is None else distance
         measured += f", its heading {told(off)} rad off"
-    return Finding(passed, expected, measured, round(at, 3), bands)
+    return Finding(passed, expected, measured, round(at, 3), bands, value=distance)

@@ -131,6 +131,8 @@ def per_scan(recording: Recording, parameters: Table) -> Finding:
     if odd:
         comma = ", a decimal comma" if re.fullmatch(r"-?\d+,\d+", odd) else ""
         why = Explanation(f"{shown(odd, 40)!r} in the log is no number{comma}: a number has digits and a decimal point")
+    if printed and not given:
+        why = Explanation(printed)
     if parameters.has("log") and not given and not printed and (lines := recording.facts().get("silent_log")):
         why = Explanation(f"line {lines[0]['line']}: {lines[0]['said']}")
     if parameters.has("log") and given and unanswered and (lines := recording.facts().get("seldom_log")):

@@ -44,7 +44,7 @@ def spawned(recording: Recording, parameters: Table) -> Finding:
     found = {axis: recording.signal(f"truth/{robot}/{axis}") for axis in wanted}
     if not len(found["x"]):
         measured, why = _why_not(recording, robot)
-        return Finding(False, expected, measured, explanation=why)
+        return Finding(False, expected, measured, explanation=why, nothing=True)
     first = float(found["x"].times[0]) / 1e9
     if first > LATE:
         return Finding(False, expected, f"{robot} came only at {told(first)} s", first)

@@ -1,9 +1,8 @@
 """`stays_in_band`: were signals in their bands without interruption to the end of the run?
 
 kind = "stays_in_band"
-conditions = [{ signal = "truth/robot/linear_x", low = -0.02, high = 0.02 }]
+conditions = [{ signal = "truth/robot/linear_x", low = -0.02, high = 0.02, unit = "m/s" }]
 last = 1.5                # [s] before the end of the run
-unit = "m/s"
 command = "topics/cmd_vel/linear/x"    # optional: the command to quote if the check fails
 """
 

@@ -1,10 +1,9 @@
 """`time_in_band`: how long were one or more signals in their bands at the same time?
 
 kind = "time_in_band"
-conditions = [{ signal = "truth/robot/linear_x", low = 0.45, high = 0.55 }]
+conditions = [{ signal = "truth/robot/linear_x", low = 0.45, high = 0.55, unit = "m/s" }]
 seconds = [4.7, 5.35]     # at least, at most; the second may be left out
 window = [0.0, 8.0]       # optional
-unit = "m/s"              # for the report
 """
 
 from __future__ import annotations
@@ -35,9 +34,8 @@ def time_in_band(recording: Recording, parameters: Table) -> Finding:
         measured += "".join(f"; {c.name} {_usual(recording, c)}" for c in conditions)
     at = float(edges[1:][holds][-1]) if holds.any() else None
     bands = tuple(Band(c.signal, c.low, c.high, start, end) for c in conditions)
-    return Finding(
-        bool(least <= total <= most), f"{wanted} {span}", measured, at, bands, timing=_was_right(recording, conditions)
-    )
+    passed, was_right = bool(least <= total <= most), _was_right(recording, conditions)
+    return Finding(passed, f"{wanted} {span}", measured, at, bands, timing=was_right, value=total)
 
 
 def _was_right(recording: Recording, conditions: list[Condition]) -> bool:

@@ -12,7 +12,8 @@ from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.report.report import HostFacts, Report, TrialReport
 from gz_course.grader.score.check import Band, Finding
-from gz_course.grader.score.score import CheckResult, Score
+from gz_course.grader.score.consequences import CheckResult
+from gz_course.grader.score.score import Score
 
 DURATION = 4.0
 TWIST = {"/cmd_vel": "geometry_msgs/msg/Twist"}

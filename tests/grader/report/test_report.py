@@ -11,7 +11,7 @@ from hypothesis import given
 from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.report.report import points
 from gz_course.grader.score.check import Finding
-from gz_course.grader.score.score import CheckResult
+from gz_course.grader.score.consequences import CheckResult
 from gz_course.tests.grader.report.handmade import REPORT, nasty, result, score_of
 
 KEYS = {
@@ -32,7 +32,9 @@ def test_the_values():
     assert (data["score"], data["max_score"], data["outcome"]) == (50, 100, "graded")
     assert (data["real_time_factor"], data["run_wall_seconds"], data["wall_seconds"]) == (16.0, 0.5, 2.0)
     trial = {"name": "public", "seed": 3, "score": 50, "outcome": "graded"}
-    assert data["trials"] == [trial | {"recording": "runs/03_teleop.rrd", "truth_sha256": "ab" * 32}]
+    (found,) = data["trials"]
+    assert found.items() >= (trial | {"recording": "runs/03_teleop.rrd", "truth_sha256": "ab" * 32}).items()
+    assert [(check["id"], check["status"]) for check in found["checks"]] == [("good", "passed"), ("bad", "failed")]
     good, bad = data["checks"]
     assert (good["status"], good["points"], good["at_s"], good["hint"]) == ("passed", 50, 1.25, None)
     assert (bad["status"], bad["points"], bad["at_s"], bad["hint"]) == ("failed", 0, 1.25, "Hint for bad.")
@@ -112,3 +114,13 @@ def test_a_recording_is_read_once_and_stays_behind_when_a_report_travels(make_re
     assert kept.content() is read and kept == trial
     travelled = pickle.loads(pickle.dumps(kept))
     assert travelled == trial and travelled.read is None
+
+
+def test_the_report_says_what_a_failed_check_keeps():
+    spec = CheckSpec("a", "A", 30, "change", ("A hint.",))
+    for kept, said in (
+        (15.0, ["15 of 30 points: all checks together lose at most 40 % for one misconception"]),
+        (0.0, []),
+    ):
+        check = CheckResult(spec, Finding(False, "so", "not so"), kept)
+        assert [text for name, text in REPORT.told(check) if name == "kept"] == said

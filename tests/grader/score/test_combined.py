@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from gz_course.grader.exercise import CheckSpec
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.combined import combined
-from gz_course.grader.score.score import CheckResult, Score
+from gz_course.grader.score.consequences import CheckResult, shared
+from gz_course.grader.score.score import Score
 
 
 def scored(*passes, name="t", outcome="graded"):
@@ -67,3 +68,24 @@ def test_no_trial_can_raise_a_score(rows):
     assert [check.finding.passed for check in verdict.checks] == [all(column) for column in zip(*rows, strict=True)]
     assert verdict.points <= min(score.points for _, score in trials)
     assert bool(verdict.diagnosis) == (verdict.points < sum(check.spec.points for check in verdict.checks))
+
+
+def failing(name, *after):
+    """A score of two checks that fail, the second as a consequence of `after`, and one that passes."""
+    failed = [("a", 30, ()), ("b", 50, after)]
+    checks = [
+        CheckResult(
+            CheckSpec(id, "A title", points, "change", ("A hint.",), {}, after), Finding(False, "so", f"in {name}")
+        )
+        for id, points, after in failed
+    ]
+    passed = CheckResult(CheckSpec("c", "A title", 20, "change", ("A hint.",)), Finding(True, "so", "so"))
+    return Score(shared([*checks, passed]), "graded", f"fault of {name}", f"hash of {name}")
+
+
+def test_what_failed_checks_keep_is_no_more_than_in_the_worst_trial():
+    linked, apart = failing("one", "a"), failing("two")
+    assert (linked.points, apart.points) == (60, 20)
+    assert combined([("one", linked), ("two", linked)]).points == 60
+    for order in ([("one", linked), ("two", apart)], [("two", apart), ("one", linked)]):
+        assert combined(order).points == 20

@@ -17,6 +17,8 @@ ACTIONS = frozenset({
     "publish_feedback", "clear", "append", "popleft",
 })  # fmt: skip
 TRANSFORM = {"lookup_transform": 3, "can_transform": 3, "transform": 2}  # method of a Buffer -> position of its timeout
+CLOCKS = frozenset({"now", "time", "monotonic", "perf_counter"})  # asked by a loop that waits for time to pass
+WAITING = frozenset({"ok", "now", "get_clock", "publish", "info", "print"})
 MESSAGE_FIELDS = frozenset({"data", "x", "y", "z", "w"})
 
 
@@ -174,10 +176,10 @@ def blocking(tree: ast.AST) -> Iterator[Place]:
             if names & {"spin_once", "spin_some"}:
                 continue
             endless = isinstance(inner.test, ast.Constant) and not any(
-                isinstance(each, ast.Break | ast.Return) for each in walk(inner)
+                isinstance(each, ast.Break | ast.Return | ast.Raise) for each in walk(inner)
             )
-            only_waits = names and not names - {"ok", "now", "get_clock", "publish", "info"}
-            if rates or "sleep" in names or only_waits or (not names and endless):
+            asked = {name for _, name in calls(inner.test)}
+            if rates or endless or "sleep" in names or asked & CLOCKS or (names and not names - WAITING):
                 yield (
                     inner.lineno,
                     f"the loop in the callback {node.name} keeps the executor: while it runs, no other callback and no "

@@ -193,12 +193,27 @@ def same_object(function: ast.FunctionDef) -> Words:
         for each in nodes_of(function, ast.Assign):
             if each.lineno <= node.lineno:
                 continue
-            if unparse(each.targets[0]).startswith(f"{target}."):
+            if unparse(each.targets[0]).startswith(f"{target}.") and _is_used_again(node, each, function):
                 yield (
                     each,
                     f"{target} is {value} itself since line {node.lineno}, no copy: this line changes both; set "
                     "the fields one by one, or copy.deepcopy() it",
                 )
+
+
+def _is_used_again(shared: ast.Assign, changed: ast.Assign, function: ast.FunctionDef) -> bool:
+    """Return whether what was shared may be read after it was changed, other than where it is shared."""
+    root = unparse(shared.value).partition(".")[0]
+    own = {id(node) for node in walk(shared)}
+    uses = [
+        node.lineno
+        for node in nodes_of(function, ast.Name)
+        if node.id == root and isinstance(node.ctx, ast.Load) and id(node) not in own
+    ]
+    rounds = [
+        each.lineno for each in walk(function) if isinstance(each, ast.For | ast.While) and changed in list(walk(each))
+    ]
+    return root == "self" or any(line > min([changed.lineno, *rounds]) for line in uses)
 
 
 PARTS = frozenset(
@@ -213,7 +228,8 @@ def identity(tree: ast.AST) -> Iterator[Place]:
         last_name(target)
         for target, value in assigned(tree)
         if isinstance(value, ast.Constant) and type(value.value) in (str, int, float)
-    } - {""}
+    } - {"", *_members(tree)}
+    handed_on = {(last_name(target), last_name(value)) for target, value in assigned(tree)}
     for node in nodes_of(tree, ast.Compare):
         if not isinstance(node.ops[0], ast.Is | ast.IsNot):
             continue
@@ -222,9 +238,10 @@ def identity(tree: ast.AST) -> Iterator[Place]:
             isinstance(side, ast.Constant) and (side.value is None or isinstance(side.value, bool)) for side in sides
         ):
             continue
-        for side in sides:
+        for side, other in (sides, sides[::-1]):
             literal = isinstance(side, ast.Constant) and type(side.value) in (str, int, float)
-            if literal or last_name(side) in constants:
+            same = (last_name(other), last_name(side)) in handed_on
+            if literal or (last_name(side) in constants and not same):
                 word, sign = ("is", "==") if isinstance(node.ops[0], ast.Is) else ("is not", "!=")
                 yield (
                     node.lineno,
@@ -232,6 +249,16 @@ def identity(tree: ast.AST) -> Iterator[Place]:
                     "equal",
                 )
                 break
+
+
+def _members(tree: ast.AST) -> set[str]:
+    """Return the names of the members of enumerations, each of which is one object."""
+    return {
+        last_name(target)
+        for each in nodes_of(tree, ast.ClassDef)
+        if any(last_name(base).endswith(("Enum", "Flag")) for base in each.bases)
+        for target, _ in assigned(each)
+    }
 
 
 @slip_of(ast.BinOp)

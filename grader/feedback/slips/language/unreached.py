@@ -58,10 +58,11 @@ def _spins(statement: ast.stmt) -> bool:
 def behind_spin(tree: ast.AST) -> Iterator[Place]:
     """Find what is called behind spin(), also in the `finally` of a `try` that spins.
 
-    Right behind spin(), a cancel() that stands nowhere else and a function that publishes are no clearing up. A last
-    message from `except` or `finally`, such as a stop, is, where the file publishes at other places, too.
+    Right behind spin(), a cancel() that stands nowhere else and a function that publishes are no clearing up. What
+    `except` and `finally` do, such as sending a stop, is, where the file publishes at other places, too.
     """
-    awaited = {each.name for each in functions(tree) if "publish" in called(each)}
+    publishing = {each.name: [n for _, n in calls(each)].count("publish") for each in functions(tree)}
+    awaited = {name for name, count in publishing.items() if count}
     awaited |= {"cancel"} if sum(name == "cancel" for _, name in calls(tree)) == 1 else set()
     published = sum(name == "publish" for _, name in calls(tree))
     for block in blocks(tree):
@@ -71,10 +72,12 @@ def behind_spin(tree: ast.AST) -> Iterator[Place]:
         for each in block:
             if isinstance(each, ast.Try) and any(_spins(statement) for statement in each.body):
                 after += [*(part for handler in each.handlers for part in handler.body), *each.finalbody]
-        last = sum(name == "publish" for statement in after for _, name in calls(statement))
-        clearing_up = HARMLESS | {"publish"} if published > last else HARMLESS
+        names = [name for statement in after for _, name in calls(statement)]
+        last = names.count("publish") + sum(publishing.get(name, 0) for name in set(names))
         for statement in after:
-            harmless = HARMLESS - awaited if id(statement) in meant else clearing_up
+            if id(statement) not in meant and published > last:
+                continue
+            harmless = HARMLESS - awaited if id(statement) in meant else HARMLESS
             if lost := [name for _, name in calls(statement) if name not in harmless]:
                 yield (
                     statement.lineno,

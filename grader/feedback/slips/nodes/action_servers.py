@@ -13,6 +13,7 @@ from gz_course.grader.feedback.facts.syntax import (
     functions,
     last_name,
     nodes_of,
+    returned_by,
     set_to,
     unparse,
     walk,
@@ -47,25 +48,13 @@ def _callbacks(tree: ast.AST) -> Iterator[tuple[str, ast.FunctionDef | ast.Async
                 yield str(role), functions[name]
 
 
-def _returned(function: ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda) -> list[ast.expr | None]:
-    if isinstance(function, ast.Lambda):
-        return [function.body]
-    inner = {
-        id(each)
-        for node in nodes_of(function, ast.FunctionDef, ast.Lambda)
-        if node is not function
-        for each in walk(node)
-    }
-    return [each.value for each in nodes_of(function, ast.Return) if id(each) not in inner]
-
-
 @slip
 def answers(tree: ast.AST) -> Iterator[Place]:
     """Find a callback that answers to a goal, or to a wish to cancel, with something else than an answer."""
     for role, function in _callbacks(tree):
         if role not in ANSWERS:
             continue
-        returned, kind = _returned(function), ANSWERS[role]
+        returned, kind = returned_by(function), ANSWERS[role]
         others = set(ANSWERS.values()) - {kind}
         wrong = [
             each
@@ -86,7 +75,7 @@ def answers(tree: ast.AST) -> Iterator[Place]:
 @slip
 def no_result(tree: ast.AST) -> Iterator[Place]:
     for role, function in _callbacks(tree):
-        if role == "execute_callback" and all(each is None for each in _returned(function)):
+        if role == "execute_callback" and all(each is None for each in returned_by(function)):
             yield (
                 function.lineno,
                 "execute returns nothing, and what it returns is the result that the client gets: return the Result of "
@@ -113,7 +102,7 @@ def no_message_as_result(tree: ast.AST) -> Iterator[Place]:
         results = {
             name for name, given in values.items() if any(last_name(_callee(each)) == "Result" for each in given)
         }
-        for value in _returned(function):
+        for value in returned_by(function):
             owner = unparse(value.value) if isinstance(value, ast.Attribute) else ""
             counted = values.get(unparse(value), []) if isinstance(value, ast.Name) else [value]
             number = bool(counted) and all(

@@ -101,10 +101,20 @@ def waiting_loops(tree: ast.AST) -> Iterator[Place]:
 
 
 def _endless(loop: ast.While) -> bool:
-    """Return whether a loop goes on until it gets a transform."""
-    return any(name in ASKED for call, name in calls(loop.test)) or (
-        isinstance(loop.test, ast.Constant) and any(isinstance(node, ast.Try) for node in walk(loop))
-    )
+    """Return whether a loop goes on until it gets a transform, and ends for no other reason."""
+    if any(name in ASKED for call, name in calls(loop.test)):
+        return True
+    tries = [
+        each
+        for each in nodes_of(loop, ast.Try)
+        if any(name in ASKED for statement in each.body for call, name in calls(statement))
+    ]
+    if not isinstance(loop.test, ast.Constant) or not tries:
+        return False
+    begin = min(each.lineno for each in tries)
+    handled = {id(node) for each in tries for handler in each.handlers for node in walk(handler)}
+    ends = (node for node in walk(loop) if isinstance(node, ast.Break | ast.Return | ast.Raise))
+    return not any(node.lineno < begin or id(node) in handled for node in ends)
 
 
 @slip_of(ast.FunctionDef)

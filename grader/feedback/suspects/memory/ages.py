@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from gz_course.grader.feedback.facts.constants import Number, named_numbers, number
-from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, nodes_of, set_to, unparse, walk
+from gz_course.grader.feedback.facts.syntax import Words, assigned, calls, last_name, nodes_of, set_to, unparse, walk
 from gz_course.grader.feedback.suspects import suspicion, suspicion_of
 from gz_course.grader.feedback.suspects.about import About, Suspect
 
@@ -29,7 +29,7 @@ def turned(node: ast.If, tree: ast.AST) -> Words:
     drops, uses = isinstance(node.body[-1], LEAVES) and not _acts(node.body), _acts(node.body)
     for test, holds in _parts(node.test, True):
         asked = _older(test, values)
-        if asked is None or not (drops or uses):
+        if asked is None or not (drops or uses) or _always_holds(test):
             continue
         if (asked == holds) == uses:
             yield (
@@ -48,6 +48,13 @@ def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
             asked = _older(test, values)
             if asked is None or not isinstance(test, ast.Compare):
                 continue
+            if _always_holds(test) and holds:
+                yield (
+                    test.lineno,
+                    About.ANY_AGE,
+                    f"`{unparse(test)[:60]}` holds for every age, so no message is too old",
+                )
+                continue
             limit, large = _limit(test, values, names)
             if limit and not large:
                 said = (
@@ -60,6 +67,20 @@ def of_any_age(tree: ast.AST) -> Iterator[Suspect]:
             elif asked == holds and not node.orelse and _says(node.body):
                 said = f"`{unparse(node.test)[:60]}` only reports an old message; without return, it is used"
                 yield test.lineno, About.ANY_AGE, said
+
+
+def _always_holds(test: ast.expr) -> bool:
+    """Return whether a comparison says of an absolute value what is true of any."""
+    match test:
+        case ast.Compare(left=left, ops=[ast.GtE()], comparators=[ast.Constant(value=int() | float() as limit)]):
+            return limit <= 0 and _is_absolute(left)
+        case ast.Compare(left=ast.Constant(value=int() | float() as limit), ops=[ast.LtE()], comparators=[right]):
+            return limit <= 0 and _is_absolute(right)
+    return False
+
+
+def _is_absolute(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and last_name(node.func) in ("abs", "fabs")
 
 
 def _says(body: list[ast.stmt]) -> bool:

@@ -24,6 +24,7 @@ MEANS = frozenset({"mean", "fmean", "average", "nanmean", "median", "nanmedian"}
 ERROR = re.compile(
     r"err|integ|self\.(?:sum|total|i)\b", re.IGNORECASE
 )  # what the deviation from what is wanted, and its sum, are called
+HEADING = re.compile(r"yaw|heading|theta|angle|turned|phi|psi", re.IGNORECASE)  # a sum of rates, not of errors
 PARAMETER = re.compile(r"(?:declare|get)_parameter\(")
 MEASURED = re.compile(r"\.range$|^min\(.*\branges\b")  # the distance of a Range, and the nearest of a scan
 STEPS = 4  # names followed at most
@@ -231,7 +232,7 @@ def integrals(tree: ast.AST) -> Words:
             name, value = unparse(node.targets[0]), node.value.right
             name = name if unparse(node.value.left) == name else ""
         kept = name.startswith("self.") and name not in limited and not isinstance(value, ast.Constant)
-        if kept and ERROR.search(unparse(node)):
+        if kept and ERROR.search(unparse(node)) and not HEADING.search(name):
             yield (
                 node,
                 f"{unparse(node)[:60]} is an integral that nothing limits: it grows while the robot is far "

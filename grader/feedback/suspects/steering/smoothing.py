@@ -154,6 +154,13 @@ def _weight(old: ast.expr, new: ast.expr, name: str, known: dict[str, int | floa
     return 1 - weight if any(each is not None and abs(each + weight - 1) < 1e-6 for each in given) else None
 
 
+def _worked_off(tree: ast.AST, kept: str) -> set[int]:
+    """Return the nodes of loops that go on until nothing is kept: they take each value, the oldest first."""
+    loops = (each for each in nodes_of(tree, ast.While, ast.For))
+    conditions = ((each, each.test if isinstance(each, ast.While) else each.iter) for each in loops)
+    return {id(node) for each, condition in conditions if kept in unparse(condition) for node in walk(each)}
+
+
 @suspicion_of(About.DELAY)
 def delay_lines(tree: ast.Module) -> Words:
     """Find the oldest of many values, taken where the newest is meant: `self.last.popleft()`, `self.last[0]`."""
@@ -171,7 +178,7 @@ def delay_lines(tree: ast.Module) -> Words:
                 oldest = unparse(kept)
             case ast.Subscript(value=kept, slice=ast.Constant(value=0)):
                 oldest = unparse(kept)
-        if sizes.get(oldest, 0) < MANY // 2:
+        if sizes.get(oldest, 0) < MANY // 2 or id(node) in _worked_off(tree, oldest):
             continue
         if not any(part in text for part in (f"{oldest}[-1]", f"{oldest}.appendleft", f"{oldest}.insert")):
             yield (

@@ -7,6 +7,7 @@ from gz_course.grader.feedback.errors.python_errors import meaning
 
 # First lines of errors, as CPython 3.11, NumPy 2, rclpy 7.1, tf2, cv_bridge and message_filters print them.
 ERRORS = (
+    "MemoryError",
     "AttributeError: 'Duration' object has no attribute 'nanosec'",
     "AttributeError: 'Duration' object has no attribute 'seconds'",
     "AttributeError: 'Future' object has no attribute 'success'",
@@ -64,6 +65,7 @@ ERRORS = (
     "KeyError: 'left'",
     "ModuleNotFoundError: No module named 'geometry_msgs.messages'",
     "ModuleNotFoundError: No module named 'scipy'",
+    "ModuleNotFoundError: No module named 'pandas'",
     "ModuleNotFoundError: No module named 'std_msg'",
     "NameError: name 'self' is not defined",
     "NotInitializedException: rclpy.init() has not been called",
@@ -127,6 +129,7 @@ ERRORS = (
     "ValueError: history depth must be greater than or equal to zero",
     "ValueError: math domain error",
     "ValueError: min() arg is an empty sequence",
+    "ValueError: no signature found for builtin <built-in method append of collections.deque object at 0x7f6b>",
     "ValueError: operands could not be broadcast together with shapes (6,) (2,)",
     "ValueError: timer period must be non-negative",
     "ZeroDivisionError: division by zero",

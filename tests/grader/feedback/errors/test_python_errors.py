@@ -107,6 +107,10 @@ def test_a_mistake_is_explained(node, words):
 # Error, the line that raised it -> what is said.
 ERRORS = {
     (
+        "TypeError: 'NoneType' object does not support the context manager protocol",
+        "with rclpy.init():",
+    ): "returns None on Jazzy",
+    (
         "TypeError: Talker.stop() takes 1 positional argument but 2 were given",
         "self.stop(now)",
     ): "def stop takes 0 argum",

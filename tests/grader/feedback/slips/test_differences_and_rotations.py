@@ -96,6 +96,20 @@ def test_constants_assigned_together_are_no_objects_to_be_recognised():
 
 
 @pytest.mark.parametrize(
+    "more",
+    [
+        "\n\nclass Side(enum.Enum):\n    LEFT = 1\n    RIGHT = 2\n",
+        "\n\nclass Side(Flag):\n    LEFT, RIGHT = 1, 2\n",
+        "\n\nLEFT = 'left'\nself.side = LEFT\n",
+    ],
+)
+def test_one_object_with_two_names_is_recognised(more):
+    file = FILE.format(**RIGHT).replace("LEFT", "PORT")
+    text = f"{file}\n    def sign(self):\n        return 1 if self.side is Side.LEFT else -1\n{more}"
+    assert not [each for each in slips(text.encode()) if "same object" in each["said"]]
+
+
+@pytest.mark.parametrize(
     ("second", "found"),
     [("y = x * s + y * c", True), ("y = old * s + y * c", False), ("z = x * s + y * c", False)],
 )

@@ -21,8 +21,17 @@ class Mapper(Node):
 """
 
 
-def test_a_loop_without_an_end_and_without_a_call_is_found():
-    (found,) = slips(NODE.format(loop="while True:\n            error = -error").encode())
+@pytest.mark.parametrize(
+    "loop",
+    [
+        "while True:\n            error = -error",
+        "while True:\n            print(error)",
+        "while True:\n            self.store(error, Twist())",
+        "while self.get_clock().now() - self.begin < Duration(seconds=5):\n            self.say(Twist())",
+    ],
+)
+def test_a_loop_that_keeps_the_executor_is_found(loop):
+    (found,) = slips(NODE.format(loop=loop).encode())
     assert "keeps the executor" in found["said"]
 
 

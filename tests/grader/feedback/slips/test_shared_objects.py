@@ -108,3 +108,28 @@ def test_a_list_that_grows_from_call_to_call(old, new, found):
     source = source.replace('robot{number}"]', 'robot{number}"])') if "extend(" in new else source
     said = [each["said"] for each in slips(source.encode())]
     assert any("command is BASE itself (line 4), not a copy" in each for each in said) is found
+
+
+HEADER = """\
+def on_picture(self, colour):
+    for hit in self.hits(colour):
+        message = PointStamped()
+        message.header = {source}.header
+        message.header.frame_id = "camera_link"
+        self.publisher.publish(message)
+{after}
+"""
+
+
+@pytest.mark.parametrize(
+    ("source", "after", "found"),
+    [
+        ("colour", "", False),
+        ("colour", "    self.stamps.append(colour.header)", True),
+        ("colour", "    print(colour)", True),
+        ("self.scan", "", True),
+    ],
+)
+def test_a_header_that_is_changed_where_it_is_shared(source, after, found):
+    words = said(HEADER.format(source=source, after=after))
+    assert any("itself since line 4" in each for each in words) == found

@@ -54,3 +54,21 @@ def test_steps_of_time_are_no_starts():
 @pytest.mark.parametrize("behind", ["node.stop()", "node.timer.cancel()"])
 def test_what_is_meant_to_end_the_drive_does_not_run_behind_spin(behind):
     assert any("comes after spin()" in each for each in said(behind=behind))
+
+
+@pytest.mark.parametrize("clause", ["except KeyboardInterrupt", "finally"])
+@pytest.mark.parametrize("call", ["node.stop()", "node.publisher.publish(Twist())"])
+def test_a_last_command_on_ctrl_c_is_no_fault(clause, call):
+    text = NODE.format(lines=RIGHT, behind="node.destroy_node()")
+    text = text.replace(
+        "    rclpy.spin(node)\n", f"    try:\n        rclpy.spin(node)\n    {clause}:\n        {call}\n"
+    )
+    assert slips(text.encode(), duration=8.0) == []
+
+
+def test_a_drive_that_begins_only_on_ctrl_c_is_named():
+    text = NODE.format(lines="self.passed = now - self.start", behind="node.destroy_node()").replace("stop", "go")
+    text = text.replace(
+        "    rclpy.spin(node)\n", "    try:\n        rclpy.spin(node)\n    finally:\n        node.go()\n"
+    )
+    assert any("go() comes after spin()" in place["said"] for place in slips(text.encode(), duration=8.0))

@@ -56,6 +56,17 @@ def test_what_can_never_work_is_a_slip(text, words):
     [
         [f"t = {ASK}"],
         ["if self.buffer is None:", "    self.buffer = Buffer()", f"t = {ASK}"],
+        [
+            *(
+                "while True:",
+                "    try:",
+                "        scan = self.queue.get_nowait()",
+                "    except Empty:",
+                "        break",
+            ),
+            *("    try:", f"        t = {ASK}", "    except E:", "        again.append(scan)"),
+        ],
+        ["while True:", "    try:", f"        t = {ASK}", "    except E:", "        return"],
         ["for scan in self.waiting:", "    if self.buffer.can_transform('odom', 'x', Time()):", f"        t = {ASK}"],
     ],
 )

@@ -42,11 +42,18 @@ def test_a_right_node_has_none():
         ("waited < OLDEST", "not waited > OLDEST", False),
         ("waited < OLDEST", "OLDEST > waited", False),
         ("waited < OLDEST", "count > OLDEST", False),
+        ("waited < OLDEST", "abs(waited) >= 0", False),
+        ("waited < OLDEST", "0.0 <= abs(waited)", False),
         ("        return\n", "        self.publisher.publish(Twist())\n        return\n", False),
     ],
 )
 def test_an_age_that_is_compared_the_wrong_way_round(old, new, found):
     assert bool(said(NODE.replace(old, new), "age")) == found
+
+
+def test_a_condition_that_holds_for_every_age():
+    (words,) = said(NODE.replace("waited < OLDEST", "abs(waited) >= 0"), "any_age")
+    assert words == "`abs(waited) >= 0` holds for every age, so no message is too old"
 
 
 @pytest.mark.parametrize(
