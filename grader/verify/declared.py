@@ -8,6 +8,11 @@ The private half is the exercise's twin in `solutions/`: the solved file, `accep
     words = ["Twist of zeros"]               # must occur in its first line of feedback
     trial = "from_the_north"                 # optional: full marks in public, fails in this hidden trial only
 
+    [rejected.misspells_import]
+    fails = ["five_seconds", "stops", "..."]
+    words = ["ModuleNotFoundError"]
+    nothing_runs = "it ends with an error"   # optional: why it may cost more than 40 % of the points
+
     [mutants]
     equivalent = ["24: 0.1 -> 0.2"]          # a survivor of `course verify` that is a correct solution
 
@@ -37,7 +42,7 @@ class Variant:
     """A submission, the checks it must fail (the starter: all), and words required in its first line of feedback.
 
     `folder` holds its files, or those that differ from the solution's. `trial` names the hidden trial in which alone it
-    fails.
+    fails. `nothing_runs` says why it may lose more than a misconception costs (`grader/score/consequences.py`).
     """
 
     name: str
@@ -45,6 +50,7 @@ class Variant:
     fails: frozenset[str]
     words: tuple[str, ...] = ()
     trial: str | None = None
+    nothing_runs: str = ""
 
 
 def variants(exercise: Exercise) -> list[Variant]:
@@ -70,11 +76,12 @@ def variants(exercise: Exercise) -> list[Variant]:
         entry.where = f"{path}: rejected.{name}"
         loses, words = frozenset(entry.texts("fails")), tuple(entry.texts("words"))
         trial = _hidden_trial(exercise, entry) if entry.has("trial") else None
+        nothing_runs = entry.text("nothing_runs", "")
         entry.end()
         for check in sorted(loses - every):
             hint = did_you_mean(check, every, listing="known")
             raise ManifestError(f"{entry.where} names no check of {exercise.name}: {check}{hint}")
-        found.append(Variant(f"rejected/{name}", variant, loses, words, trial))
+        found.append(Variant(f"rejected/{name}", variant, loses, words, trial, nothing_runs))
     for each in found:
         if not any((each.folder / name).is_file() for name in exercise.parts):
             names = [p.name for p in each.folder.iterdir()] if each.folder.is_dir() else []

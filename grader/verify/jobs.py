@@ -26,6 +26,7 @@ from gz_course.grader.grade import grade
 from gz_course.grader.process.interruption import end_on, undisturbed
 from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.report.report import Report
+from gz_course.grader.verify.kept import read, write
 
 PR_SET_PDEATHSIG = 1
 PATIENCE = 10.0  # [s] for a worker to end what it runs
@@ -36,15 +37,32 @@ ATTEMPTS = 3  # at a grading that fails because of the machine
 class Job:
     """One grading: `file` is what is submitted; the recordings go to the folder `out`.
 
-    `trials` is a list of groups: a group is run only if those before it earned full marks.
+    `trials` is a list of groups: a group is run only if those before it earned full marks. `kept` is where the report
+    stays until the proof is complete.
     """
 
     exercise: Exercise
     file: Path
     out: Path
     trials: tuple[tuple[Trial, ...], ...]
+    kept: Path | None = None
+
+    @property
+    def done(self) -> bool:
+        """Whether an earlier command left the report."""
+        return self.kept is not None and self.kept.is_file()
 
     def run(self) -> Report:
+        """Return the report: that of an earlier command, else grade."""
+        if self.kept is None:
+            return self._run()
+        report = read(self.kept)
+        if report is None:
+            report = self._run()
+            write(self.kept, report)
+        return report
+
+    def _run(self) -> Report:
         first, *others = self.trials
         report = self._grade(first, self.out)
         for number, trials in enumerate(others, 1):

@@ -1,20 +1,24 @@
 """The proof of an exercise: everything it declares is graded and compared; `course verify` prints the result.
 
 Solution and accepted variants earn full marks in every trial, the starter nothing in any; each rejected variant loses
-exactly what it declares, in the public trials or in the hidden one that it names, with the declared feedback. A check
+exactly what it declares, in the public trials or in the hidden one that it names, with the declared feedback, and no
+more points than one misconception costs (`grader/score/consequences.py`), unless nothing runs at all. A check
 that no rejected variant fails proves nothing and is a fault. Then the solution is changed in one place at a time
-(`mutants/`): a mutant that keeps full marks is a survivor, which is a warning.
+(`mutants.py`): a mutant that keeps full marks is a survivor, which is a warning.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from gz_course.grader.edits import Edit, edits_of
+from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import chosen_trials
 from gz_course.grader.report.report import Report
+from gz_course.grader.score.consequences import MOST_FOR_ONE
 from gz_course.grader.score.first_sentence import words
 from gz_course.grader.score.score import Score
 from gz_course.grader.verify.declared import (
@@ -26,10 +30,14 @@ from gz_course.grader.verify.declared import (
     variants,
 )
 from gz_course.grader.verify.jobs import Job, Pool
-from gz_course.grader.verify.mutants import MOST, Mutant, choose, mutants_of
+from gz_course.grader.verify.kept import Kept
+from gz_course.grader.verify.mutants import MOST, choose
+from gz_course.sim.did_you_mean import did_you_mean
 
 REJECTED = "rejected/"
 
+NEARLY_ALL = 0.75  # of all points, that a variant loses in which nothing runs
+FEWEST_RUNGS = 4  # checks; the points of fewer are no ladder
 MOST_FIRST, MOST_OPEN = 30, 70  # words of the first sentence, and of it and the hint beside it
 
 
@@ -47,7 +55,7 @@ class Proof:
 class MutantProof:
     """The result of one mutant; one that failed no check survived."""
 
-    mutant: Mutant
+    mutant: Edit
     failed: frozenset[str]
 
 
@@ -69,7 +77,7 @@ class Verification:
         ]
 
     @property
-    def survivors(self) -> list[Mutant]:
+    def survivors(self) -> list[Edit]:
         """The mutants that no check noticed."""
         return [proof.mutant for proof in self.mutants if not proof.failed]
 
@@ -79,39 +87,76 @@ class Verification:
         return sum(check in proof.failed for proof in rejected), sum(check in m.failed for m in self.mutants)
 
 
-def verify(exercise: Exercise, out: Path, pool: Pool, most_mutants: int = MOST) -> Iterator[Verification]:
-    """Grade every variant and mutant; yield the growing result after each, the complete one last.
+@dataclass(frozen=True)
+class Plan:
+    """What a verification will grade. `faults` are those of the exercise as a whole, which show without a run."""
 
-    The recordings go to the folder `out`. Raises ManifestError if the halves do not agree.
+    exercise: Exercise
+    variants: list[Variant]
+    mutants: list[Edit]
+    faults: list[str]
+
+    def __len__(self) -> int:
+        return len(self.variants) + len(self.mutants)
+
+
+def plan(exercise: Exercise, most_mutants: int = MOST, only: str = "") -> Plan:
+    """Read what an exercise declares; `only` names the one variant to grade, such as `rejected/never_stops`.
+
+    Raises ManifestError if the halves do not agree, UsageError if no variant has that name.
     """
-    result = Verification(exercise)
     declared = variants(exercise)
+    if only:
+        found = [variant for variant in declared if variant.name == only.strip("/")]
+        if not found:
+            hint = did_you_mean(only, [variant.name for variant in declared], listing="known")
+            raise UsageError(f"{exercise.name} has no variant {only!r}{hint}")
+        return Plan(exercise, found, [], [])
+    faults = []
     for kind, fewest in (("accepted", FEWEST_ACCEPTED), ("rejected", FEWEST_REJECTED)):
         count = sum(v.name.startswith(f"{kind}/") for v in declared)
         if count < fewest:
-            result.faults.append(f"{count} {kind} variants, at least {fewest} are needed")
+            faults.append(f"{count} {kind} variants, at least {fewest} are needed")
     for check in exercise.checks:
         if not any(check.id in v.fails for v in declared if v.name.startswith(REJECTED)):
-            result.faults.append(f"no rejected variant fails the check {check.id}: it proves nothing")
+            faults.append(f"no rejected variant fails the check {check.id}: it proves nothing")
+    return Plan(exercise, declared, _mutants(exercise, faults, most_mutants), faults)
+
+
+def planned_jobs(planned: Plan, out: Path, kept: Kept | None = None) -> list[Job]:
+    """Return the gradings of a plan in its order; the recordings go to the folder `out`, the reports to `kept`."""
+    exercise = planned.exercise
     every = chosen_trials(exercise, "all")
     hidden = tuple(trial for trial in every if trial not in exercise.trials)
     # What is to fail in the public trials needs no hidden ones.
     until_it_fails = (exercise.trials, hidden) if hidden else (exercise.trials,)
-    mutants = _mutants(exercise, result, most_mutants)
     jobs = []
-    for v in declared:
+    for v in planned.variants:
         fails_in_public = v.name.startswith(REJECTED) and v.trial is None
         trials = until_it_fails if fails_in_public else (every,)
         jobs.append(Job(exercise, submitted_file(exercise, v, out), out / v.name, trials))
-    for number, mutant in enumerate(mutants, 1):
+    for number, mutant in enumerate(planned.mutants, 1):
         folder = out / "mutants" / str(number)
         file = completed(exercise, {exercise.file: mutant.content}, folder)
         jobs.append(Job(exercise, file, folder, until_it_fails))
+    return jobs if kept is None else [replace(job, kept=_place(kept, job)) for job in jobs]
+
+
+def _place(kept: Kept, job: Job) -> Path:
+    beside = {name: job.file.parent / name for name in job.exercise.parts}
+    submitted = {name: path.read_bytes() for name, path in beside.items() if path.is_file()}
+    return kept.place({"out": str(job.out.name).encode()} | submitted, job.trials)
+
+
+def verify(planned: Plan, jobs: Sequence[Job], pool: Pool) -> Iterator[Verification]:
+    """Grade every variant and mutant of a plan; yield the growing result after each, the complete one last."""
+    exercise = planned.exercise
+    result = Verification(exercise, faults=list(planned.faults))
     reports = pool.reports(jobs)
-    for variant in declared:
+    for variant in planned.variants:
         result.proofs.append(judge(exercise, variant, next(reports)))
         yield result
-    for mutant in mutants:
+    for mutant in planned.mutants:
         result.mutants.append(MutantProof(mutant, failed_in(next(reports).score)))
         yield result
 
@@ -124,14 +169,14 @@ def submitted_file(exercise: Exercise, variant: Variant, out: Path) -> Path:
     return completed(exercise, own, out / variant.name / "submission")
 
 
-def _mutants(exercise: Exercise, result: Verification, most: int) -> list[Mutant]:
-    """Choose the mutants of the solution; record a fault for each declared equivalent that does not exist."""
+def _mutants(exercise: Exercise, faults: list[str], most: int) -> list[Edit]:
+    """Choose the mutants of the solution; add a fault for each declared equivalent that does not exist."""
     if not most:
         return []
-    found = mutants_of(exercise.file, (exercise.twin / exercise.file).read_bytes())
+    found = edits_of(exercise.file, (exercise.twin / exercise.file).read_bytes())
     equivalent = equivalent_mutants(exercise)
     known = {mutant.change for mutant in found}
-    result.faults += [
+    faults += [
         f"no mutant of the solution is {each!r}, as [mutants] declares" for each in equivalent if each not in known
     ]
     return choose([mutant for mutant in found if mutant.change not in equivalent], most)
@@ -152,11 +197,11 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
     proof.faults += [f"passes {check}, which it must fail" for check in sorted(variant.fails - failed)]
     if not proof.faults:
         proof.faults += _trials(exercise, variant, report)
+    proof.faults += _ladder(variant, report) if len(exercise.checks) >= FEWEST_RUNGS else []
     lost = [check for check in report.score.checks if not check.finding.passed]
     hint = report.first_failed.spec.hint if report.first_failed is not None else ""
     told = " ".join([check.finding.measured for check in lost] + [each for c in lost for each in c.spec.hints])
-    all_hints = report.first_failed.spec.hints if report.first_failed is not None else ()
-    first = " ".join([report.score.feedback, *all_hints])
+    first = f"{report.score.feedback} {hint}"
     if (length := words(report.score.diagnosis)) > MOST_FIRST:
         proof.faults.append(
             f"its first sentence has {length} words, more than {MOST_FIRST}: {report.score.diagnosis!r}"
@@ -164,10 +209,22 @@ def judge(exercise: Exercise, variant: Variant, report: Report) -> Proof:
     if (length := words(f"{report.score.diagnosis} {hint}")) > MOST_OPEN:
         proof.faults.append(f"its first sentence and hint have {length} words, more than {MOST_OPEN}: {hint!r}")
     for word in variant.words:
-        if word.casefold() not in first.casefold():
+        if word.casefold() not in first.casefold():  # where a sentence is cut, the next one gets a capital letter
             where = "only further down" if word.casefold() in told.casefold() else "nowhere"
             proof.faults.append(f"its first line of feedback does not say {word!r} ({where} does it stand): {first!r}")
     return proof
+
+
+def _ladder(variant: Variant, report: Report) -> Iterator[str]:
+    """Yield a fault if a rejected variant costs too much for one misconception, or too little for nothing that runs."""
+    if not variant.name.startswith(REJECTED):
+        return
+    lost = report.max_score - report.score.points
+    if variant.nothing_runs:
+        if lost < NEARLY_ALL * report.max_score:
+            yield f"loses {lost:g} of {report.max_score:g} points: more runs than nothing_runs says"
+    elif lost > MOST_FOR_ONE * report.max_score:
+        yield f"loses {lost:g} of {report.max_score:g} points; one misconception costs at most {MOST_FOR_ONE:.0%}"
 
 
 def _trials(exercise: Exercise, variant: Variant, report: Report) -> Iterator[str]:

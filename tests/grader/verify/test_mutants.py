@@ -7,7 +7,8 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gz_course.grader.verify.mutants import Mutant, choose, mutants_of
+from gz_course.grader.edits import Edit, edits_of
+from gz_course.grader.verify.mutants import choose
 
 NODE = '''\
 """A docstring, 0.5 and /cmd_vel in it."""
@@ -38,7 +39,7 @@ if __name__ == "__main__":
 
 
 def changes(text=NODE, file="node.py"):
-    return {mutant.change: mutant for mutant in mutants_of(file, text.encode())}
+    return {mutant.change: mutant for mutant in edits_of(file, text.encode())}
 
 
 @pytest.mark.parametrize(
@@ -102,7 +103,7 @@ def test_every_mutant_is_python_and_differs_in_one_line_only():
 
 @given(st.integers(1, 40), st.permutations(range(40)))
 def test_the_choice_depends_on_nothing_but_the_mutants(most, order):
-    every = [Mutant("f.py", i, f"operator {i % 7}", f"{i}", f"{i + 1}", b"%d" % i) for i in range(40)]
+    every = [Edit("f.py", i, f"operator {i % 7}", f"{i}", f"{i + 1}", b"%d" % i) for i in range(40)]
     chosen = choose([every[i] for i in order], most)
     assert chosen == choose(every, most)
     assert len(chosen) == most and chosen == sorted(chosen, key=lambda mutant: mutant.line)
@@ -151,6 +152,6 @@ def test_every_mutant_of_yaml_is_yaml():
 
 
 def test_a_file_of_another_sort_has_none():
-    assert [m.now for m in mutants_of("switch.yaml", b"lazy: false")] == ["true"]
-    assert mutants_of("notes.txt", b"0.5") == []
-    assert mutants_of("empty.yaml", b"") == mutants_of("empty.py", b"") == []
+    assert [m.now for m in edits_of("switch.yaml", b"lazy: false")] == ["true"]
+    assert edits_of("notes.txt", b"0.5") == []
+    assert edits_of("empty.yaml", b"") == edits_of("empty.py", b"") == []

@@ -5,15 +5,16 @@ from pathlib import Path
 
 import pytest
 
+from gz_course.grader.edits import Edit
 from gz_course.grader.exercise import CheckSpec, find_exercise
 from gz_course.grader.exercise.bundle import write
 from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.report.report import Report, TrialReport
 from gz_course.grader.score.check import Finding
 from gz_course.grader.score.combined import combined
-from gz_course.grader.score.score import CheckResult, Score
+from gz_course.grader.score.consequences import CheckResult
+from gz_course.grader.score.score import Score
 from gz_course.grader.verify.declared import Variant
-from gz_course.grader.verify.mutants import Mutant
 from gz_course.grader.verify.proof import MutantProof, Verification, judge, submitted_file
 
 CHECKS = ("a", "b")
@@ -100,7 +101,7 @@ def test_kills_are_counted_by_check(exercise):
     result = Verification(exercise)
     for name, lost in (("starter", "ab"), ("rejected/x", "a"), ("rejected/y", "ab"), ("accepted/z", "b")):
         result.proofs.append(judge(exercise, variant(name, lost), report(exercise, open=lost)))
-    mutant = Mutant("node.py", 1, "sign", "1", "-1", b"")
+    mutant = Edit("node.py", 1, "sign", "1", "-1", b"")
     result.mutants = [MutantProof(mutant, frozenset("a")), MutantProof(mutant, frozenset())]
     assert [result.killed_by(check) for check in CHECKS] == [(2, 1), (1, 0)]
     assert result.survivors == [mutant]
@@ -120,3 +121,19 @@ def test_a_variant_holds_only_the_files_that_differ_from_the_solution(exercise, 
     assert place.read_bytes() == b"solved"
     assert (place.parent / "robot.sdf").read_bytes() == b"heavy"
     assert submitted_file(two, Variant("solution", twin, frozenset()), tmp_path / "out") == twin / "bringup.launch.py"
+
+
+def test_what_one_misconception_costs(exercise):
+    """Of exercises with four checks or more: 10 points each, of which 40 % may be lost."""
+    specs = tuple(CheckSpec(id, f"Check {id}", 10, "change", ("A hint.",)) for id in "abcde")
+    longer = dataclasses.replace(exercise, checks=specs)
+
+    def said(fails, nothing_runs=""):
+        whole = dataclasses.replace(report(longer, open=fails, wide=fails, hidden=fails), max_score=50)
+        given = dataclasses.replace(variant(fails=fails), nothing_runs=nothing_runs)
+        return judge(longer, given, whole).faults
+
+    assert said("ab") == [] and said("abcd", "it ends with an error") == []
+    assert said("abc") == ["loses 30 of 50 points; one misconception costs at most 40%"]
+    assert said("ab", "it ends with an error") == ["loses 20 of 50 points: more runs than nothing_runs says"]
+    assert faults(exercise, variant(fails="ab"), open="ab", wide="ab", hidden="ab") == [], "two checks are no ladder"

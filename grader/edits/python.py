@@ -1,13 +1,16 @@
-"""Mutants of a Python file, each a typical mistake: a sign, a number, a name, QoS, a condition, a forgotten line.
+"""Edits of a Python file, each a typical mistake: a sign, a number, a name, QoS, a condition, a forgotten line.
 
-Only the mutated place of the text changes; the file is not regenerated from its syntax tree, so the line numbers stay.
+Only the edited place of the text changes; the file is not regenerated from its syntax tree, so the line numbers stay.
 """
 
 from __future__ import annotations
 
 import ast
 
-from gz_course.grader.verify.mutants.mutant import Mutant, Text
+from gz_course.grader.edits.edit import Edit, Text, Vocabulary
+from gz_course.grader.edits.python_statements import moved
+from gz_course.grader.edits.python_values import QOS_ARGUMENT, SENSOR_DATA, TRANSIENT, other_values
+from gz_course.grader.feedback.facts.syntax import parsed
 
 COMPARED: dict[type[ast.cmpop], str] = {
     ast.Lt: ">",
@@ -27,35 +30,35 @@ FIELDS = {"x": "y", "y": "x", "linear": "angular", "angular": "linear", "range_m
 FIELDS |= {"range_max": "range_min", "angle_min": "angle_max", "angle_max": "angle_min"}
 # function -> index of the argument that is a name
 NAMED = {"create_publisher": 1, "create_subscription": 1, "create_client": 1, "create_service": 1}
-QOS = {
-    "create_publisher": (2, '__import__("rclpy.qos").qos.qos_profile_sensor_data'),
-    "create_subscription": (
-        3,
-        '__import__("rclpy.qos").qos.QoSProfile(depth=10, '
-        'durability=__import__("rclpy.qos").qos.DurabilityPolicy.TRANSIENT_LOCAL)',
-    ),
-}
+QOS = {"create_publisher": SENSOR_DATA, "create_subscription": TRANSIENT}
 FORGOTTEN = ("publish", "cancel", "send_request", "call_async")  # calls that may be left out
 # Arguments that do not change what a node does.
 UNTOUCHED = ("num_threads", "timeout_sec", "depth")
 
 
-def mutants(file: str, content: bytes) -> list[Mutant]:
-    finder = _Finder(Text(file, content))
-    finder.visit(ast.parse(content))
+def breaking(text: Text) -> list[Edit]:
+    """Return the edits that break a right program."""
+    finder = _Finder(text)
+    finder.visit(parsed(text.content))
     return finder.found
+
+
+def mending(text: Text, vocabulary: Vocabulary) -> list[Edit]:
+    """Return further edits, which could mend a wrong program."""
+    tree = parsed(text.content)
+    return [*other_values(text, tree, vocabulary), *moved(text, tree)]
 
 
 class _Finder(ast.NodeVisitor):
     def __init__(self, text: Text) -> None:
         self._text = text
-        self._untouched: set[int] = set()  # id(node) of numbers and texts that are not mutated
-        self.found: list[Mutant] = []
+        self._untouched: set[int] = set()  # id(node) of numbers and texts that stay
+        self.found: list[Edit] = []
 
     def _add(self, operator: str, node: ast.expr | ast.stmt, now: str) -> None:
         assert node.end_lineno is not None and node.end_col_offset is not None
         begin, end = self._text.at(node.lineno, node.col_offset), self._text.at(node.end_lineno, node.end_col_offset)
-        self.found.append(self._text.mutant(operator, node.lineno, begin, end, now))
+        self.found.append(self._text.edit(operator, node.lineno, begin, end, now))
 
     def _leave(self, *nodes: ast.AST) -> None:
         self._untouched |= {id(node) for each in nodes for node in ast.walk(each)}
@@ -161,9 +164,9 @@ class _Finder(ast.NodeVisitor):
             if isinstance(topic, ast.Constant) and isinstance(topic.value, str):
                 self._add("name", topic, repr(topic.value[:-1]))
             self._leave(topic)
-        if name in QOS and len(node.args) > QOS[name][0]:
-            qos = node.args[QOS[name][0]]
-            self._add("qos", qos, QOS[name][1])
+        if name in QOS and len(node.args) > QOS_ARGUMENT[name]:
+            qos = node.args[QOS_ARGUMENT[name]]
+            self._add("qos", qos, QOS[name])
             self._leave(qos)
         if name in ("__init__", "create_node", "Node"):
             self._leave(*node.args[:1])  # the name of a node is arbitrary
