@@ -10,6 +10,7 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.learning_platforms.import_file import Grades, import_file, overview
 from gz_course.grader.learning_platforms.lateness import UNKNOWN, absolute, lateness, read_deadline
+from gz_course.grader.learning_platforms.login_map import read_login_map
 from gz_course.grader.learning_platforms.matching import Match, match
 from gz_course.grader.learning_platforms.roster import Roster, read_roster
 from gz_course.grader.learning_platforms.submission_times import Submitted, submission_times
@@ -40,6 +41,7 @@ def export(
     points: float | None = None,
     deadline: str | None = None,
     submissions: Path | None = None,
+    login_map: Path | None = None,
 ) -> Exported:
     """Return the grades of the class in `folder`, as `course grade-all` wrote it, for the platform of the roster.
 
@@ -48,7 +50,8 @@ def export(
     due = read_deadline(deadline) if deadline is not None else None
     rows = read_gradebook(folder)
     roster = read_roster(roster_file)
-    times = submission_times(submissions, exercise) if submissions is not None else {}
+    people = read_login_map(login_map) if login_map is not None else None
+    times = submission_times(submissions, exercise, people) if submissions is not None else {}
     matches = match(rows, roster)
 
     def submitted(each: Match) -> Submitted | None:
@@ -96,8 +99,13 @@ def _moodle_time(roster: Roster, each: Match) -> Submitted | None:
 
 def write(path: Path, text: str) -> None:
     """Write a file as a whole or not at all. Raises UsageError if it cannot be written."""
+    write_bytes(path, text.encode(errors="replace"))
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Write a file as a whole or not at all. Raises UsageError if it cannot be written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, text.encode(errors="replace"))
+        write_whole(path, data)
     except OSError as error:
         raise UsageError(f"{path} cannot be written: {error.strerror}") from None

@@ -39,6 +39,7 @@ from gz_course.grader.learning_platforms.roster import (
     Roster,
 )
 from gz_course.grader.printable import shown
+from gz_course.grader.whole_class.final import EXCUSED
 from gz_course.grader.whole_class.gradebook import cell
 from gz_course.sim.did_you_mean import did_you_mean
 
@@ -81,28 +82,38 @@ def import_file(
         if why := _unfit(each, layout):
             left_out.append((each, why))
         else:
-            assert each.person is not None and each.member.row.score is not None
-            score = each.member.row.score if worth == most else each.member.row.score * worth / most
-            rows.append(layout.row(each.person, f"{round(score, LARGEST_ROUNDING):.10g}", each))
+            assert each.person is not None
+            score = each.member.row.score
+            scaled = score if score is None or worth == most else score * worth / most
+            text = layout.excused if scaled is None else f"{round(scaled, LARGEST_ROUNDING):.10g}"
+            rows.append(layout.row(each.person, text, each))
             written.append(each)
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([*layout.head, *rows])
-    return Grades(text.getvalue(), tuple(written), tuple(left_out), layout.advice)
+    table = io.StringIO()
+    csv.writer(table, lineterminator="\n").writerows([*layout.head, *rows])
+    return Grades(table.getvalue(), tuple(written), tuple(left_out), layout.advice)
 
 
 @dataclass(frozen=True)
 class _Layout:
-    """What a platform expects: first rows, the row of a person with a score, and why a person cannot have one."""
+    """What a platform expects: first rows, the row of a person with a score, and why a person cannot have one.
+
+    `excused` is the score of who has none and needs none; empty if the platform has no word for it.
+    """
 
     head: list[list[str]]
     row: Callable[[Person, str, Match], list[str]]
     unfit: Callable[[Person], str]
     advice: str
+    excused: str = ""
 
 
 def _unfit(match: Match, layout: _Layout) -> str:
     if match.person is None:
         return match.why
+    if match.member.row.outcome == EXCUSED and layout.excused:
+        return layout.unfit(match.person)
+    if match.member.row.outcome == EXCUSED:
+        return "excused"
     if match.member.row.score is None:
         return f"not graded: {match.member.row.diagnosis}"
     return layout.unfit(match.person)
@@ -133,7 +144,7 @@ def _canvas(
     advice = "In Canvas: Grades, Import."
     if place is None:
         advice += f" The roster has no assignment, so Canvas offers to make a new one called {shown(title, 120)}."
-    return _Layout(head, row, lambda person: _no_canvas_id(person), advice)
+    return _Layout(head, row, lambda person: _no_canvas_id(person), advice, excused="EX")
 
 
 def _no_canvas_id(person: Person) -> str:

@@ -10,18 +10,15 @@ Moodle, `mod/assign/feedback/offline/importgradeslib.php` (worksheet) and Moodle
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from gz_course.grader.errors import UsageError
+from gz_course.grader.learning_platforms.spreadsheet import rows_of, text_of
 from gz_course.grader.printable import shown
 
 CANVAS, WORKSHEET, MOODLE = "Canvas", "Moodle worksheet", "Moodle"
-LARGEST_ROSTER = 64 << 20  # [bytes]
-DELIMITERS = ",;\t:"
 POINTS_POSSIBLE = "Points Possible"  # marks a row of Canvas that is no student
 PARTICIPANT = re.compile(r"\D*(\d+)")  # of the worksheet's column Identifier: Participant 123
 # What Canvas calculates itself, with the name of an assignment group before it or a grading period after it.
@@ -75,8 +72,8 @@ class Roster:
 
 def read_roster(path: Path) -> Roster:
     """Read a roster. Raises UsageError if it cannot be read or has no column that identifies students."""
-    text = _text(path)
-    rows = _rows(path, text)
+    text = text_of(path)
+    rows = rows_of(path, text)
     header, *rest = [(line, [cell.strip() for cell in row]) for line, row in rows]
     names = tuple(header[1])
     body = [(line, tuple(row[: len(names)] + [""] * (len(names) - len(row)))) for line, row in rest if any(row)]
@@ -97,36 +94,6 @@ def read_roster(path: Path) -> Roster:
     if not people:
         raise UsageError(f"{path} has no students: every line after the header is empty")
     return Roster(system, names, people, points)
-
-
-def _text(path: Path) -> str:
-    """Return the text of a file in UTF-8, in UTF-16 (Excel's Unicode text), or else in Windows-1252."""
-    try:
-        if path.stat().st_size > LARGEST_ROSTER:
-            raise UsageError(f"{path} has {path.stat().st_size} bytes; a roster has at most {LARGEST_ROSTER}")
-        data = path.read_bytes()
-    except OSError as error:
-        raise UsageError(f"the roster {path} cannot be read: {error.strerror}") from None
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        return data.decode("utf-16", "replace")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("cp1252", "replace")
-
-
-def _rows(path: Path, text: str) -> list[tuple[int, list[str]]]:
-    """Return (line, cells) of every row, with the delimiter that gives the header the most columns."""
-    first = next((line for line in text.splitlines() if line.strip()), "")
-    delimiter = max(DELIMITERS, key=lambda each: (len(next(csv.reader([first], delimiter=each), [])), each == ","))
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
-    try:
-        rows = [(reader.line_num, row) for row in reader if row]
-    except csv.Error as error:
-        raise UsageError(f"{path}, line {reader.line_num}: {error}; expected the CSV file of an export") from None
-    if not rows:
-        raise UsageError(f"{path} is empty; expected the CSV file of an export")
-    return rows
 
 
 def _system(header: tuple[str, ...]) -> str:

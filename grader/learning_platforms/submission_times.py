@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-import tempfile
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from pathlib import Path
@@ -20,6 +20,8 @@ from typing import NamedTuple
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
+from gz_course.grader.learning_platforms.login_map import Person
+from gz_course.grader.process.temporary_folder import TemporaryFolder
 from gz_course.grader.whole_class.found import Found, find_submissions
 from gz_course.grader.whole_class.platforms import CANVAS
 
@@ -36,20 +38,29 @@ class Submitted(NamedTuple):
     said_by: str
 
 
-def submission_times(path: Path, exercise: Exercise) -> dict[tuple[str, str], Submitted]:
+def submission_times(
+    path: Path, exercise: Exercise, people: Mapping[str, Person] | None = None
+) -> dict[tuple[str, str], Submitted]:
     """Return the time of every submission that has one, by what the gradebook calls it (`student`, `submission`).
 
-    `path` is the folder or zip that was graded. Raises UsageError if it cannot be read.
+    `path` is the folder or zip that was graded, `people` are the students by their logins at GitHub.
+    Raises UsageError if it cannot be read.
     """
     found: dict[tuple[str, str], Submitted] = {}
     with ExitStack() as stack:
-        submissions, _ = find_submissions(path, exercise, stack)
-        folders = _folders(path) if path.is_dir() else {}
-        ours = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="course-git-")))
-        for each in submissions:
-            if submitted := _submitted(each, folders.get(each.entry), ours):
+        submissions, _ = find_submissions(path, exercise, stack, people)
+        when = times_in(path, stack)
+        for each in (one for last in submissions for one in (*last.earlier, last)):
+            if submitted := when(each):
                 found[each.student, each.source] = submitted
     return found
+
+
+def times_in(path: Path, stack: ExitStack) -> Callable[[Found], Submitted | None]:
+    """Return what tells when a submission of the folder or zip `path` was handed in; `stack` cleans up after it."""
+    folders = _folders(path) if path.is_dir() else {}
+    ours = stack.enter_context(TemporaryFolder("course-git-")) / "objects"  # the next run removes what a kill leaves
+    return lambda found: _submitted(found, folders.get(found.entry), ours)
 
 
 def _submitted(found: Found, folder: Path | None, ours: Path) -> Submitted | None:

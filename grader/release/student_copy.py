@@ -13,12 +13,14 @@ import shutil
 import tempfile
 from pathlib import Path
 
+from gz_course.grader.course_folder.layout import RELEASED, Changes, record, update_from
 from gz_course.grader.course_folder.material import PARTS, material_files, plain_files
 from gz_course.grader.course_folder.readme import FROM_A_COPY, readme
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
 from gz_course.grader.exercise.grading import GRADING, README
 from gz_course.grader.exercise.pristine import STARTERS
+from gz_course.grader.release.choice import chosen
 
 CHECKOUT = Path(__file__).parents[2]
 CODE = ("sim", "grader", "public")
@@ -46,17 +48,21 @@ AUTHORS_ONLY = (
 )
 
 
-def release(root: Path, target: Path) -> list[str]:
+def release(root: Path, target: Path, only: str = "") -> tuple[list[str], Changes | None]:
     """Write the students' copy of the course at `root` to `target`; return the names of its exercises.
 
-    An incomplete copy is removed. Raises UsageError if `target` cannot be used, ManifestError if a file would reveal a
-    solution.
+    Drafts are left out, and all but `only`. An earlier copy in `target` keeps its exercises and is brought up to date:
+    then the second value says what has changed. An incomplete copy is removed. Raises UsageError if `target` cannot be
+    used, ManifestError if a file would reveal a solution.
     """
     code = root if all((root / name).exists() for name in (*CODE, *FILES[:1])) else CHECKOUT
     missing = [name for name in (*CODE, *FILES) if not (code / name).exists()]
     if missing:
         raise UsageError(f"{code} lacks {missing[0]}; release from a checkout of the course, not from an installation")
-    exercises = [find_exercise(name, root) for name in exercise_names(root)]
+    every = [find_exercise(name, root) for name in exercise_names(root)]
+    names = chosen(only, every) if only else [exercise.name for exercise in every if not exercise.draft]
+    before = exercise_names(target) if (target / RELEASED).is_file() else []
+    exercises = [exercise for exercise in every if exercise.name in names or exercise.name in before]
     if not exercises:
         raise UsageError(f"there are no exercises in {root / 'exercises'}, so there is nothing to release")
     target = _usable(target, [*(root / name for name in PARTS), *(code / name for name in CODE)])
@@ -65,7 +71,11 @@ def release(root: Path, target: Path) -> list[str]:
         target.parent.mkdir(parents=True, exist_ok=True)
         copy = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
         copy.chmod(0o755)
-        _fill(copy, root, code, exercises)
+        _fill(copy, root, code, exercises, [each.name for each in every if each not in exercises])
+        files = {path.relative_to(copy).as_posix(): path for path in sorted(copy.rglob("*")) if path.is_file()}
+        record(copy, {name: path.read_bytes() for name, path in files.items()}, RELEASED)
+        if (target / RELEASED).is_file():
+            return [exercise.name for exercise in exercises], update_from(target, copy)
         if target.exists():
             target.rmdir()  # remove the empty target folder
         copy.rename(target)
@@ -75,13 +85,13 @@ def release(root: Path, target: Path) -> list[str]:
     finally:
         if copy is not None:
             shutil.rmtree(copy, ignore_errors=True)
-    return [exercise.name for exercise in exercises]
+    return [exercise.name for exercise in exercises], None
 
 
 def _usable(target: Path, sources: list[Path]) -> Path:
     """Return the full path of the target.
 
-    Raises UsageError unless it is new or an empty folder, outside of what is copied.
+    Raises UsageError unless it is new, empty or an earlier copy, outside of what is copied.
     """
     full = target.resolve()
     for source in sources:
@@ -90,19 +100,21 @@ def _usable(target: Path, sources: list[Path]) -> Path:
     try:
         if full.exists() and not full.is_dir():
             raise UsageError(f"{target} is a file; give a folder that is new or empty")
-        if full.is_dir() and any(full.iterdir()):
+        if full.is_dir() and any(full.iterdir()) and not (full / RELEASED).is_file():
             raise UsageError(f"{target} is not empty; give a folder that is new or empty")
     except OSError as error:
         raise UsageError(f"{target} cannot be used: {error.strerror}") from None
     return full
 
 
-def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise]) -> None:
+def _fill(copy: Path, root: Path, code: Path, exercises: list[Exercise], without: list[str]) -> None:
     private = [lines for exercise in exercises for lines in _private(exercise)]
     together = {
         Path("exercises", e.name, name): [e.folder / part for part in e.parts] for e in exercises for name in e.parts
     }
     for inside, path in material_files(root):
+        if inside.parts[1] in without:
+            continue
         _refuse_a_solution(together.get(inside, [path]), inside, private)
         _copy(path, copy / inside)
     for name in CODE:

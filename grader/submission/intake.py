@@ -31,6 +31,7 @@ from gz_course.grader.submission.archive import (
     is_archive,
     open_archive,
 )
+from gz_course.grader.submission.given_names import as_asked, twice, without_text_suffix
 from gz_course.sim.did_you_mean import did_you_mean
 
 LARGEST = 1 << 20  # [bytes] of a submitted file
@@ -43,31 +44,36 @@ STAND_INS = {"conftest", "sitecustomize", "usercustomize", "numpy", "rclpy"}
 
 
 class Selection(NamedTuple):
-    """The part of a folder or archive that is the submission: everything below `base`; `main` is the expected file."""
+    """The part of a folder or archive that is the submission: everything below `base`; `main` is the expected file.
+
+    `notes` say what was taken under another name, or is there twice (`given_names.py`).
+    """
 
     base: str
     main: str
     files: dict[str, bytes]
+    notes: tuple[str, ...] = ()
 
 
-def take_in(exercise: Exercise, path: Path | None) -> Submission:
+def take_in(exercise: Exercise, path: Path | None, *, explained: bool = True) -> Submission:
     """Read the submission at `path`: the expected file, or a folder or archive with it; None: the student's copy.
 
-    A folder or an archive comes with everything in it, a file with those of `exercise.files` that lie beside it. Raises
-    UsageError if there is nothing to read or a file of the exercise is missing, RefusedError if it must not be read.
+    A folder or an archive comes with everything in it, a file with those of `exercise.files` that lie beside it;
+    `explained` is as in `Submission`. Raises UsageError if there is nothing to read or a file of the exercise is
+    missing, RefusedError if it must not be read.
     """
-    path, main, files = read_submission(exercise, path if path is not None else exercise.folder)
+    path, main, files, notes = read_submission(exercise, path if path is not None else exercise.folder)
     kind = find_kind(exercise.kind)
     judged = [main, *(name for name in exercise.files if name.endswith(kind.suffixes))]
     fault = next((found for name in judged if (found := kind.fault(name, files[name]))), None)
     total = hashlib.sha256(files[main])
     for name in exercise.files:
         total.update(hashlib.sha256(files[name]).digest())
-    return Submission(path.resolve(), main, total.hexdigest(), fault, files)
+    return Submission(path.resolve(), main, total.hexdigest(), fault, files, explained, notes)
 
 
-def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str, bytes]]:
-    """Return where a submission lies, the name of the expected file, and all files, without judging their contents.
+def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str, bytes], tuple[str, ...]]:
+    """Return where a submission lies, the name of the expected file, all files, and notes, without judging contents.
 
     Raises UsageError, or RefusedError, as `take_in` does.
     """
@@ -75,16 +81,17 @@ def read_submission(exercise: Exercise, path: Path) -> tuple[Path, str, dict[str
         raise UsageError(f"{shown(str(path))!r}: a file name must be UTF-8, or ROS cannot start the file; rename it")
     if _is_folder(path):
         chosen = select(folder_tree(path), exercise, str(path))
-        return path / chosen.base / chosen.main, chosen.main, chosen.files
+        return path / chosen.base / chosen.main, chosen.main, chosen.files, chosen.notes
     suffixes = find_kind(exercise.kind).suffixes
     archive = is_archive(path.name) and not path.name.endswith(suffixes)
     data = _read(path, exercise.file, suffixes, LARGEST_ARCHIVE if archive else LARGEST)
     if not archive:
-        files = {path.name: data} | _beside(exercise, path)
+        main = without_text_suffix(path.name, suffixes)
+        files = {main: data} | _beside(exercise, path)
         _require(exercise, files, str(path))
-        return path, path.name, files
+        return path, main, files, () if main == path.name else (f"{shown(path.name)} is taken as {shown(main)}.",)
     chosen = select(open_archive(path.name, data), exercise, str(path))
-    return path, chosen.main, chosen.files
+    return path, chosen.main, chosen.files, chosen.notes
 
 
 def _beside(exercise: Exercise, path: Path) -> dict[str, bytes]:
@@ -167,14 +174,15 @@ def without_grading(tree: Tree) -> Tree:
     return {name: member for name, member in tree.items() if not name.startswith(tuple(graders))}
 
 
-def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) -> Selection:
+def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False, own_name: bool = False) -> Selection:
     """Find the expected file in a folder or archive and read it, with everything beside and below it.
 
     It may be anywhere if it is there only once. If it is missing, the only file of its type is taken whatever its name,
-    and a single archive is opened. Raises UsageError if there is none, RefusedError if something must not be read.
+    and a single archive is opened. `own_name`: the file has its student's name, which needs no note.
+    Raises UsageError if there is none, RefusedError if something must not be read.
     """
     tree = {n: m for n, m in tree.items() if not any(map(is_junk, n.split("/"))) and _is_utf8(n)}
-    tree = without_grading(tree)
+    tree, notes = as_asked(without_grading(tree), exercise, where)
     for name, member in sorted(tree.items()):
         if member.refusal:
             raise RefusedError(f"{where} holds {shown(name)!r}, which {member.refusal}; send plain files")
@@ -185,6 +193,9 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
         return select(archive, exercise, f"{where}: {shown(archives[0])}", nested=True)
     main = _main(tree, exercise, where)
     base = str(PurePosixPath(main).parent)
+    if PurePosixPath(main).name != exercise.file and not own_name:
+        notes.append(f"There is no {exercise.file}; {shown(main)}, the only file of its kind, is taken for it.")
+    notes += twice(tree, base, exercise)
     inside = {name if base == "." else name[len(base) + 1 :]: name for name in tree if base in (".", *_above(name))}
     chosen = {short: name for short, name in inside.items() if name == main or not _stands_in(short)}
     if len(chosen) > MOST_FILES or sum(tree[name].size for name in chosen.values()) > LARGEST_FOLDER:
@@ -197,7 +208,7 @@ def select(tree: Tree, exercise: Exercise, where: str, *, nested: bool = False) 
     if sum(map(len, files.values())) > LARGEST_FOLDER:
         raise RefusedError(f"{where} is too large: at most {LARGEST_FOLDER} bytes are accepted in a folder")
     _require(exercise, files, where)
-    return Selection(base, PurePosixPath(main).name, files)
+    return Selection(base, PurePosixPath(main).name, files, tuple(notes))
 
 
 def _named(tree: Tree, wanted: str) -> list[str]:
@@ -218,9 +229,11 @@ def _main(tree: Tree, exercise: Exercise, where: str) -> str:
     if found:
         raise UsageError(f"{where} holds {wanted} {len(found)} times: {shown(', '.join(found))}; keep one")
     suffixes = find_kind(exercise.kind).suffixes
-    names = [name for name in tree if name.endswith(suffixes)]
+    others = tuple(f"/{part}" for part in exercise.files)
+    names = [name for name in tree if name.endswith(suffixes) and not f"/{name}".endswith(others)]
     if len(names) == 1:
         return names[0]
+    names = [name for name in tree if name.endswith(suffixes)]
     near = did_you_mean(wanted, [shown(PurePosixPath(name).name) for name in names], listing="files in it are")
     raise UsageError(f"{where} holds no {wanted}, the file {exercise.name} asks for{near}")
 

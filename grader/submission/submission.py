@@ -12,7 +12,8 @@ class Submission:
 
     `path` is what the user named, for display only; `main` is the name of the expected file in `files`: relative name
     -> content of everything that goes into the sandbox. `sha256` is that of the files that the
-    exercise asks for.
+    exercise asks for. `explained` says whether its text is read for likely mistakes, which only feedback needs.
+    `notes` say under which other names files were taken.
     """
 
     path: Path
@@ -20,3 +21,5 @@ class Submission:
     sha256: str
     fault: str | None = None
     files: dict[str, bytes] = field(default_factory=dict, repr=False)
+    explained: bool = True
+    notes: tuple[str, ...] = ()

@@ -9,20 +9,19 @@ from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.pristine import pristine
 from gz_course.grader.printable import shown
-from gz_course.grader.submission.submission import Submission
 
 PART = re.compile(r"^\s*#\s*(?:Your part|Part 1): *(.*)$")
 COMMENT = re.compile(r"^\s*#\s?(.*)$")
 MOST_WORDS = 19  # of the part that is quoted
 
 
-def untouched(exercise: Exercise, submission: Submission) -> str:
-    """Return where to begin, one sentence, if every file is as it was handed out; else nothing."""
+def untouched(exercise: Exercise, main: str, files: dict[str, bytes]) -> str:
+    """Return where to begin, one sentence, if every file of a submission is as it was handed out; else nothing."""
     try:
         starter = pristine(exercise)
     except UsageError:  # nobody knows what was handed out
         return ""
-    given = submission.files | {exercise.file: submission.files.get(submission.main, b"")}
+    given = files | {exercise.file: files.get(main, b"")}
     if any(given.get(name) != content for name, content in starter.items()):
         return ""
     for name in exercise.parts:

@@ -7,10 +7,9 @@ is read before `Found.read` is called, so that only one submission at a time is 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 from pathlib import Path, PurePosixPath
@@ -18,6 +17,7 @@ from pathlib import Path, PurePosixPath
 from gz_course.grader.errors import RefusedError, UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.learning_platforms.login_map import Person
 from gz_course.grader.printable import shown
 from gz_course.grader.submission.archive import (
     Member,
@@ -28,11 +28,10 @@ from gz_course.grader.submission.archive import (
     zip_folders,
     zip_members,
 )
+from gz_course.grader.submission.given_names import is_of_kind
 from gz_course.grader.submission.intake import JUNK, Selection, folder_member, folder_tree, is_junk, select
 from gz_course.grader.whole_class.platforms import GRADESCOPE, METADATA, Entry, Export
 from gz_course.grader.whole_class.unique_names import unique_names
-
-AGAIN = re.compile(r"-\d+(?=\.[^.]*$)")  # Canvas numbers what was handed in again: teleop_node-2.py
 
 
 @dataclass(frozen=True)
@@ -42,7 +41,8 @@ class Found:
     `read` returns the expected file and everything that belongs to it. It raises UsageError, or RefusedError, if there
     is nothing to grade in it, and UnreadableError if the machine cannot read it. `submitted` is when, as the platform
     says; `files` returns all files without reading them, and raises as `read` does. `entry` is the name that `source`
-    shows, as it is in the folder or zip; `platform` is the one that has named it, or empty.
+    shows, as it is in the folder or zip; `platform` is the one that has named it, or empty. `earlier` are the attempts
+    before this one, in their order.
     """
 
     student: str
@@ -53,11 +53,12 @@ class Found:
     files: Callable[[], Tree] = dict
     entry: str = ""
     platform: str = ""
+    earlier: tuple[Found, ...] = ()
 
 
 @dataclass
 class _Group:
-    """What belongs to one student: what the first name says, and how to read each entry, by its name."""
+    """An attempt of one student: what the first name says, and how to read each entry, by its name."""
 
     first: Entry
     parts: dict[str, Callable[[], Tree]]
@@ -80,56 +81,64 @@ def _both(names: Iterable[str]) -> str:
     return " and ".join(map(_label, names))
 
 
-def find_submissions(path: Path, exercise: Exercise, stack: ExitStack) -> tuple[list[Found], list[str]]:
+def find_submissions(
+    path: Path, exercise: Exercise, stack: ExitStack, people: Mapping[str, Person] | None = None
+) -> tuple[list[Found], list[str]]:
     """Return the submissions of a class in the order of students' names, and the names of entries that are none.
 
-    `stack` closes what is read later. Raises UsageError if there are none or `path` cannot be read.
+    `stack` closes what is read later; `people` are the students by their logins at GitHub. Raises UsageError if there
+    are none, if `path` cannot be read, or if nothing is of one of `people`.
     """
     try:
         top, below, folders = _zip_top(path, stack) if path.is_file() else _folder_top(path)
     except OSError as error:
         raise UsageError(f"{path} cannot be read: {error.strerror or error}") from None
     top, left_out = _unwrapped(top, below, folders, exercise), []
-    export, top = _export(top)
-    groups: dict[tuple[str, str], _Group] = {}
     suffixes = find_kind(exercise.kind).suffixes
+    export, top = _export(top, suffixes, people)
+    if people and not export.mapped:
+        raise UsageError(f"no folder in {path} ends in a login of the map, as in 03-teleop-{next(iter(people))}")
+    groups: dict[tuple[str, str], dict[str, _Group]] = {}
     for name, thing in sorted(top.items()):
         entry = export.entry(name, callable(thing))
         hidden = name.startswith(".") and name.strip(".")  # a hidden folder is nobody's, but is reported
-        other = not callable(thing) and not entry.file.endswith(suffixes) and not is_archive(entry.file)
+        other = not callable(thing) and not is_of_kind(entry.file, suffixes) and not is_archive(entry.file)
         if (hidden or other) and not entry.platform:
             left_out.append(_label(name))
             continue
         tree = thing if callable(thing) else partial(_alone, entry.file, thing)
-        group = groups.get((entry.platform, entry.key))
-        if group is None or entry.when > group.first.when:  # a later attempt replaces an earlier one
-            groups[entry.platform, entry.key] = _Group(entry, {name: tree})
-        elif entry.when == group.first.when:
-            group.parts[name] = tree
+        attempts = groups.setdefault((entry.platform, entry.key), {})
+        attempts.setdefault(entry.when, _Group(entry, {})).parts[name] = tree
     if not groups:
         raise UsageError(
             f"there are no submissions in {path}: expected a folder, archive or {suffixes[0]} file for each student"
         )
-    return _named(list(groups.values()), exercise), left_out
+    return _named([[attempts[when] for when in sorted(attempts)] for attempts in groups.values()], exercise), left_out
 
 
-def _export(top: Top) -> tuple[Export, Top]:
+def _export(top: Top, suffixes: tuple[str, ...] = (), people: Mapping[str, Person] | None = None) -> tuple[Export, Top]:
     """Return how the names of an export are read, and its entries without a platform's own."""
     others = {name: thing for name, thing in top.items() if name != METADATA}
-    export = Export({name: callable(thing) for name, thing in others.items()}, top.get(METADATA))
+    export = Export({name: callable(thing) for name, thing in others.items()}, top.get(METADATA), suffixes, people)
     return export, others if export.platform == GRADESCOPE else top
 
 
-def _named(groups: list[_Group], exercise: Exercise) -> list[Found]:
-    """Give every student a unique, printable name."""
-    labels = unique_names([_label(group.first.student) for group in groups], [group.first.id for group in groups])
+def _named(students: list[list[_Group]], exercise: Exercise) -> list[Found]:
+    """Give every student, with the attempts in their order, a unique, printable name."""
+    entries = [groups[-1].first for groups in students]
+    labels = unique_names([_label(entry.student) for entry in entries], [entry.id for entry in entries])
     found = []
-    for label, group in zip(labels, groups, strict=True):
-        first, entry = group.first, next(iter(group.parts))
-        source = _label(entry)
-        read = partial(_read, group, exercise, source)
-        found.append(Found(label, first.id, source, read, first.submitted, group.files, entry, first.platform))
+    for label, groups in zip(labels, students, strict=True):
+        attempts = tuple(_attempt(label, group, exercise) for group in groups)
+        found.append(replace(attempts[-1], earlier=attempts[:-1]))
     return sorted(found, key=lambda each: (each.student.casefold(), each.student))
+
+
+def _attempt(label: str, group: _Group, exercise: Exercise) -> Found:
+    first, entry = group.first, next(iter(group.parts))
+    source = _label(entry)
+    read = partial(_read, group, exercise, source)
+    return Found(label, first.id, source, read, first.submitted, group.files, entry, first.platform)
 
 
 def _label(name: str) -> str:
@@ -140,11 +149,7 @@ def _label(name: str) -> str:
 
 def _read(group: _Group, exercise: Exercise, source: str) -> Selection:
     tree = group.files()
-    wanted = PurePosixPath(exercise.file)
-    for name in [name for name in tree if AGAIN.search(name)]:
-        if AGAIN.sub("", name) == wanted.name and wanted.name not in tree:
-            tree[wanted.name] = tree.pop(name)
-    return select(tree, exercise, source)
+    return select(tree, exercise, source, own_name=not group.first.platform and [*tree] == [group.first.file])
 
 
 def _alone(name: str, member: Member) -> Tree:
@@ -275,7 +280,7 @@ def _unwrapped(top: Top, below: Below, folders: Folders, exercise: Exercise) -> 
     names = [PurePosixPath(name) for name, _ in members]
     wanted = {name.parts[0] for name in names if name.name == exercise.file or is_archive(name.name)}
     if not any(name.name == exercise.file for name in names):
-        wanted |= {name for name, thing in inside.items() if not callable(thing) and name.endswith(suffixes)}
+        wanted |= {name for name, thing in inside.items() if not callable(thing) and is_of_kind(name, suffixes)}
     if len(wanted) < 2 and (len(inside) < 2 or not _export(inside)[0].platform):
         return top
     return {name: read for name, read in empty.items() if not is_junk(name)} | inside

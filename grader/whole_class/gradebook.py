@@ -2,7 +2,7 @@
 
 Made from the journal's results alone, without times and paths of this machine: the same submissions give the same
 bytes. Names and sentences are foreign text: a cell that a spreadsheet would take for a formula begins with an
-apostrophe.
+apostrophe. It begins with a byte order mark, by which Excel reads it as UTF-8.
 
 Source: RFC 4180, "Common Format and MIME Type for Comma-Separated Values (CSV) Files".
 """
@@ -39,6 +39,9 @@ class Row:
     outcome: str
     diagnosis: str
     platform: str = ""  # that has named the submission
+    folder: str = ""  # with the reports
+    changes: str = ""
+    notes: str = ""
 
 
 def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
@@ -47,14 +50,15 @@ def as_csv(exercise: Exercise, results: Iterable[dict[str, Any]]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     ids = [check.id for check in exercise.checks]
     head = ["student", "id", "submission", "score", "max_score", "outcome", *ids]
-    writer.writerow(
-        [cell(name) for name in [*head, "diagnosis", "submission_sha256", "truth_sha256", "folder", "platform"]]
-    )
+    last = ["diagnosis", "submission_sha256", "truth_sha256", "folder", "platform", "machine_score", "changes", "notes"]
+    writer.writerow([cell(name) for name in [*head, *last]])
     for result in results:
         points = result["points"]
         row = [result["student"], result["id"], result["submission"], result["score"], exercise.max_score]
         row += [result["outcome"], *(points.get(id) for id in ids), result["diagnosis"]]
         row += [result["sha256"], result["truth_sha256"], result["folder"], result.get("platform", "")]
+        row += [result.get("machine_score", result["score"]), "; ".join(result.get("changes", ()))]
+        row += [" ".join(result.get("notes", ()))]
         writer.writerow([cell(each) for each in row])
     return text.getvalue()
 
@@ -76,7 +80,7 @@ def read_gradebook(folder: Path) -> list[Row]:
     """Read the gradebook of a class. Raises UsageError if there is none, or it is not as it was written."""
     path = folder / GRADEBOOK
     try:
-        with path.open(encoding="utf-8", newline="") as stream:
+        with path.open(encoding="utf-8-sig", newline="") as stream:
             lines = csv.DictReader(stream)
             return [_row({name: _unguarded(value) for name, value in line.items()}) for line in lines]
     except OSError as error:
@@ -92,7 +96,8 @@ def read_gradebook(folder: Path) -> list[Row]:
 def _row(line: dict[str, str]) -> Row:
     score = float(line["score"]) if line["score"] else None
     most, outcome, told = float(line["max_score"]), line["outcome"], line["diagnosis"]
-    return Row(line["student"], line["id"], line["submission"], score, most, outcome, told, line.get("platform", ""))
+    more = (line.get(name) or "" for name in ("platform", "folder", "changes", "notes"))
+    return Row(line["student"], line["id"], line["submission"], score, most, outcome, told, *more)
 
 
 def _unguarded(text: str) -> str:
@@ -103,5 +108,5 @@ def _unguarded(text: str) -> str:
 def write_gradebook(folder: Path, text: str) -> Path:
     """Write the gradebook atomically: a reader sees the old one or the new one, never a part."""
     path = folder / GRADEBOOK
-    write_whole(path, text.encode(), sole_writer=True)
+    write_whole(path, text.encode("utf-8-sig"), sole_writer=True)
     return path

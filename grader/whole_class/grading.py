@@ -33,6 +33,7 @@ GRACE = 3.0  # [s] between SIGINT, SIGTERM and SIGKILL
 ERROR_TAIL = 4096  # [bytes] of the error output of a failed grading that are read
 REPORT = "report.json"
 RECORDINGS = "recordings"
+OF_REPORT = ("score", "outcome", "diagnosis", "truth_sha256")  # what a result takes from a report
 
 
 @dataclass(frozen=True)

@@ -59,6 +59,12 @@ class Results:
         result = self.done.get(key)
         return result if result is not None and self._holds.get(result["folder"]) == key else None
 
+    def held(self, folder: str) -> tuple[str, dict[str, Any]] | None:
+        """Return the key and the result whose files a folder holds; None if there are none."""
+        key = self._holds.get(folder, "")
+        result = self.done.get(key)
+        return (key, result) if result is not None and result["folder"] == folder else None
+
     def all(self) -> list[dict[str, Any]]:
         """Return the results whose folders hold their files."""
         return [result for key, result in self.done.items() if self._holds[result["folder"]] == key]

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from gz_course.grader.process.whole_file import write_whole
 from gz_course.grader.whole_class.grading import REPORT
 
 KEEP = ("all", "failing", "none")
@@ -30,6 +31,30 @@ def without_recordings(files: dict[str, bytes]) -> dict[str, bytes]:
         place["recording"] = None
     left = {name: data for name, data in files.items() if not name.endswith(RECORDING)}
     return left | {REPORT: (json.dumps(report, indent=2) + "\n").encode()}
+
+
+def free_recordings(folder: Path) -> bool:
+    """Remove the recordings of a student's folder, and their names from the report; return whether there were any.
+
+    Raises OSError if that cannot be done.
+    """
+    recordings = sorted(folder.glob(f"*{RECORDING}"))
+    if not recordings:
+        return False
+    report = without_recordings({REPORT: (folder / REPORT).read_bytes()})[REPORT]
+    write_whole(folder / REPORT, report)
+    for each in recordings:
+        each.unlink()
+    return True
+
+
+def with_notes(files: dict[str, bytes], notes: Sequence[str]) -> dict[str, bytes]:
+    """Return the files of a grading whose report has these notes, too."""
+    if not notes:
+        return files
+    report = json.loads(files[REPORT])
+    report["notes"] = list(dict.fromkeys([*notes, *report.get("notes", ())]))
+    return files | {REPORT: (json.dumps(report, indent=2) + "\n").encode()}
 
 
 def recordings_on_disk(out: Path, results: Iterable[dict[str, Any]]) -> tuple[int, int]:

@@ -72,15 +72,14 @@ class Plan:
 
 
 def make_plan(
-    out: Path, journal: Results, students: set[str], *, trials: int, at_once: int | None, keep: str,
+    out: Path, journal: Results, submissions: int, done: int, *, trials: int, at_once: int | None, keep: str,
     most: float,
 ) -> Plan:  # fmt: skip
-    """Return the plan for these students of a class with this journal; `most` points are full marks."""
+    """Return the plan for a class with this journal, of which some are `done`; `most` points are full marks."""
     results = journal.all()
     place = next(path for path in (out, *out.absolute().parents) if path.is_dir())
-    done = len({result["student"] for result in results} & students)
     measures = measured(out, results, keep, most)
-    return Plan(len(students), done, trials, at_once, keep, measures, shutil.disk_usage(place).free, journal.damaged)
+    return Plan(submissions, done, trials, at_once, keep, measures, shutil.disk_usage(place).free, journal.damaged)
 
 
 def measured(out: Path, results: Sequence[dict[str, Any]], keep: str, most: float) -> Measured | None:

@@ -5,7 +5,8 @@ place where the platform's form is complete, and the rest decides nothing. One p
 the one whose form most names have, and a single name that imitates another form changes nothing.
 
 Source: Canvas, `lib/content_zipper.rb`; Moodle, `mod/assign/classes/downloader.php`; Blackboard Help, "Download
-Assignments"; Gradescope Help, "Export Submissions".
+Assignments"; Gradescope Help, "Export Submissions"; GitHub Docs, "Use the Git and GitHub starter assignment".
+Brightspace documents no form: it is that of its archives, `USER-FOLDER - NAME - TIME`, with English names of months.
 """
 
 from __future__ import annotations
@@ -21,9 +22,12 @@ from typing import Any
 import yaml
 
 from gz_course.grader.errors import UsageError
+from gz_course.grader.learning_platforms.login_map import Person, of_repositories
 from gz_course.grader.submission.archive import Member
+from gz_course.grader.submission.given_names import without_text_suffix
 
 CANVAS, MOODLE, BLACKBOARD, GRADESCOPE = "Canvas", "Moodle", "Blackboard", "Gradescope"
+BRIGHTSPACE, GITHUB = "Brightspace", "GitHub Classroom"
 METADATA = "submission_metadata.yml"  # written by Gradescope beside the folders of an export
 LARGEST_METADATA = 4 << 20  # [bytes]
 LARGEST_GROUP = 100  # [people]
@@ -32,7 +36,7 @@ LARGEST_GROUP = 100  # [people]
 # Moodle writes `_` in no name of a person or group, but programs that unpack its archives replace blanks by it.
 FORMS = {
     CANVAS: re.compile(
-        r"(?:(?P<late_anonymous>LATE_)?anon_(?P<anonymous>[0-9A-Za-z]{5})|(?P<student>.+?)(?P<late>_LATE)?_(?P<id>[0-9]+))"
+        r"(?:(?P<late_anonymous>LATE_)?anon_(?P<anonymous>[0-9A-Za-z]+)|(?P<student>.+?)(?P<late>_LATE)?_(?P<id>[0-9]+))"
         r"_(?:(?P<attachment>[0-9]+)_(?P<file>.+)|(?:text|link)\.html)",
         re.DOTALL,
     ),
@@ -43,9 +47,16 @@ FORMS = {
     BLACKBOARD: re.compile(
         r"(?P<student>.+?)_attempt_(?P<when>[0-9]{4}(?:-[0-9]{2}){5})(?:_(?P<file>.+)|\.txt)", re.DOTALL
     ),
+    BRIGHTSPACE: re.compile(
+        r"(?P<user>[0-9]+)-[0-9]+ - (?P<student>.+?) - "
+        r"(?P<when>(?:[A-Z][a-z]{2,8} [0-9]{1,2}|[0-9]{1,2} [A-Z][a-z]{2,8}),? [0-9]{4} [0-9]{1,2}:?[0-9]{2} [AP]M)"
+        r"(?: - (?P<file>.+))?",
+        re.DOTALL,
+    ),
     GRADESCOPE: re.compile(r"(?P<student>submission_[0-9]+)"),
 }
 BLACKBOARD_TIME = "%Y-%m-%d-%H-%M-%S"
+BRIGHTSPACE_TIMES = ("%b %d %Y %I%M %p", "%B %d %Y %I%M %p", "%d %b %Y %I%M %p", "%d %B %Y %I%M %p")
 
 
 @dataclass(frozen=True)
@@ -68,14 +79,30 @@ class Entry:
 class Export:
     """The names of an export, read as those of the one platform that made it."""
 
-    def __init__(self, names: Mapping[str, bool], metadata: object = None) -> None:
-        """Decide on the platform. `names` says whether an entry is a folder; `metadata` is Gradescope's file."""
+    def __init__(
+        self,
+        names: Mapping[str, bool],
+        metadata: object = None,
+        suffixes: tuple[str, ...] = (),
+        people: Mapping[str, Person] | None = None,
+    ) -> None:
+        """Decide on the platform. `names` says whether an entry is a folder; `metadata` is Gradescope's file.
+
+        `suffixes` are those of the submission's kind; `people` are the students by their logins at GitHub.
+        """
+        self._suffixes = suffixes
+        self._people = of_repositories((name for name in names if names[name]), people) if people else {}
         numbered = [name for name in names if FORMS[GRADESCOPE].fullmatch(name)]
         self._gradescope = _gradescope(metadata, numbered) if 2 * len(numbered) > len(names) else {}
         counts = {platform: self._count(platform, names) for platform in FORMS}
         platform = max(counts, key=lambda each: counts[each])
         self.platform = platform if 2 * counts[platform] > len(names) else ""
         self._assignment = self._shared_beginning(names) if self.platform == BLACKBOARD else ""
+
+    @property
+    def mapped(self) -> bool:
+        """Whether the map of logins names anybody here."""
+        return bool(self._people)
 
     def _count(self, platform: str, names: Mapping[str, bool]) -> int:
         """Return how many names have the form of a platform. Every file of Canvas has a number of its own."""
@@ -96,9 +123,12 @@ class Export:
 
     def entry(self, name: str, folder: bool) -> Entry:
         """Return what a name says; an entry that the platform has not named belongs to whom its whole name says."""
+        if person := self._people.get(name):
+            return Entry(person.login.casefold(), person.student, person.id, name, GITHUB)
         match = self._match(self.platform, name, folder) if self.platform else None
         if match is None:
-            plain = PurePosixPath(name.removesuffix(".gz")).stem.removesuffix(".tar")
+            plain = without_text_suffix(name, self._suffixes).removesuffix(".gz")
+            plain = PurePosixPath(plain).stem.removesuffix(".tar")
             student = name if folder else plain
             return Entry(student, student, "", name)
         key, facts = match["student"] or match[0], match.groupdict()
@@ -109,6 +139,12 @@ class Export:
         if self.platform == BLACKBOARD:
             login = key.removeprefix(self._assignment)
             return Entry(key, login, login, file, BLACKBOARD, facts["when"], _blackboard_time(facts["when"]))
+        if self.platform == BRIGHTSPACE:
+            time = _brightspace_time(facts["when"])
+            when = time.isoformat() if time is not None else facts["when"]
+            whole = name if facts["file"] is None else name.removesuffix(f" - {facts['file']}")
+            person_and_folder = whole.removesuffix(f" - {facts['when']}")
+            return Entry(person_and_folder, key, facts["user"], file, BRIGHTSPACE, when, time)
         if anonymous := facts.get("anonymous"):
             return Entry(anonymous, f"anon_{anonymous}", anonymous, file, CANVAS)
         id = facts["id"] or ""
@@ -119,6 +155,17 @@ def is_late(platform: str, name: str) -> bool:
     """Return whether the name of an entry says that it was late, as only Canvas writes it."""
     match = FORMS[CANVAS].fullmatch(name) if platform == CANVAS else None
     return match is not None and bool(match["late"] or match["late_anonymous"])
+
+
+def _brightspace_time(when: str) -> datetime | None:
+    text = when.replace(",", "").replace(":", "")
+    day, clock, half = text.rsplit(" ", 2)
+    for form in BRIGHTSPACE_TIMES:
+        try:
+            return datetime.strptime(f"{day} {clock.zfill(4)} {half}", form)
+        except ValueError:
+            continue
+    return None
 
 
 def _blackboard_time(when: str) -> datetime | None:

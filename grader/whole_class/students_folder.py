@@ -11,8 +11,10 @@ PART = ".part-"  # before the name of a folder that is being written
 # Names that mean devices on Windows, with any suffix, and names of files beside the folders.
 # Source: https://learn.microsoft.com/windows/win32/fileio/naming-a-file
 RESERVED = {"con", "prn", "aux", "nul", *(f"{port}{number}" for port in ("com", "lpt") for number in "0123456789¹²³")}
-SIMILARITY = {"similarity.csv", "similarity.html"}  # which `course similar` may have put into the same folder
-TAKEN = {"gradebook.csv", "journal.jsonl", "index.html", *SIMILARITY}
+# Which may be in the folder of a class before its first run: of `course similar`, and of the instructor.
+BESIDE = {"similarity.csv", "similarity.html", "overrides.csv", "class.toml"}
+ATTEMPTS = "attempts"  # the folder with the earlier attempts
+TAKEN = {ATTEMPTS, "gradebook.csv", "journal.jsonl", "index.html", *BESIDE}
 HASHED = re.compile(r"-[0-9a-f]{8}$")  # a student whose name ends as the others' folders do gets a hash, too
 
 

@@ -85,6 +85,7 @@ SCHEMAS = {
         ),
     ),
     "Job": resource("batch/v1", "Job", fields("template", backoffLimit=NUMBER, template=fields("spec", spec=RESTARTS))),
+    "Pod": resource("v1", "Pod", POD),
     "PersistentVolumeClaim": resource(
         "v1",
         "PersistentVolumeClaim",

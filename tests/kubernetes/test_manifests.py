@@ -25,6 +25,7 @@ def pods():
         "scheduler": cluster["scheduler"]["spec"],
         "worker": cluster["worker"]["spec"],
         "grade-class": job["template"]["spec"],
+        "fill-class": resources()["Pod"]["spec"],
     }
 
 
@@ -68,6 +69,30 @@ def test_the_parts_find_one_another():
     assert volume["persistentVolumeClaim"]["claimName"] == resources()["PersistentVolumeClaim"]["metadata"]["name"]
 
 
+def test_the_job_grades_all_trials():
+    arguments = pods()["grade-class"]["containers"][0]["args"]
+    assert arguments[arguments.index("--trials") + 1] == "all"
+
+
+def test_the_page_fills_the_volume_with_what_the_job_reads():
+    """By a pod that sees the volume where the job does; hidden trials are in the solutions."""
+    page = (ROOT / "docs/where_to_grade.md").read_text()
+    copied = dict(re.findall(r"kubectl cp (\S+) fill-class:(/class/\S+)", page))
+    job, filler = (pods()[name]["containers"][0] for name in ("grade-class", "fill-class"))
+    assert job["volumeMounts"] == filler["volumeMounts"]
+    assert pods()["fill-class"]["volumes"] == pods()["grade-class"]["volumes"]
+    (root,) = [each["value"] for each in job["env"] if each["name"] == "COURSE_ROOT"]
+    assert copied == {
+        "class.zip": job["args"][3], "exercises": f"{root}/exercises", "solutions": f"{root}/solutions",
+    }  # fmt: skip
+    out = job["args"][job["args"].index("--out") + 1]
+    assert f"kubectl cp fill-class:{out} " in page
+    order = [page.index(each) for each in ("apply -f kubernetes/fill", "delete pod fill", "apply -f kubernetes/grade")]
+    assert order == sorted(order), "one machine at a time has the volume"
+    applied = set(re.findall(r"kubectl apply -f kubernetes/(\S+)", page))
+    assert applied == {path.name for path in FOLDER.glob("*.yaml")}
+
+
 @pytest.mark.proof
 def test_the_commands_have_these_options():
     scheduler = pytest.importorskip("distributed.cli.dask_scheduler")
@@ -75,6 +100,8 @@ def test_the_commands_have_these_options():
     grade_all = Commands(name="course").get_command(None, "grade-all")
     known = {"scheduler": scheduler.main, "worker": worker.main, "grade-class": grade_all}
     for name, pod in pods().items():
+        if name not in known:
+            continue
         program, verb, *arguments = pod["containers"][0]["args"]
         assert (program, verb) in {("dask", "scheduler"), ("dask", "worker"), ("course", "grade-all")}
         options = {option for each in known[name].params for option in (*each.opts, *each.secondary_opts)}

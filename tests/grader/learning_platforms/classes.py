@@ -67,3 +67,35 @@ def imported_by_moodle(text, by, people, grade):
         float(cells[what])
         grades[cells[who]] = cells[what], cells[why]
     return grades
+
+
+def feedback_taken_by_moodle(names, participants):
+    """Return participant -> the files that Moodle stores from a zip with these names.
+
+    Source: Moodle, `mod/assign/feedback/file/importziplib.php`, `is_valid_filename_for_import`.
+    """
+    stored = {}
+    for name in names:
+        parts = name.split("/")
+        assert not parts[-1].startswith((".", "~"))
+        while parts:
+            info = parts.pop(0).split("_", 4)
+            if len(info) < 4 or not info[1].isdigit() or int(info[1]) not in participants:
+                continue
+            assert info[2:4] == ["assignsubmission", "file"], "a plugin of the assignment"
+            stored.setdefault(int(info[1]), []).append("/".join([*info[4:], *parts]).lstrip("/"))
+            break
+    return stored
+
+
+def comments_taken_by_canvas(names, attachments):
+    """Return user -> attachment, as Canvas reads the names of a zip; `attachments` are those of its submissions.
+
+    Source: Canvas, `infer_comment_context_from_filename`.
+    """
+    found = {}
+    for name in names:
+        user, attachment = [part for part in name.split("_") if part.isdigit()][:2]
+        assert attachments[int(user)] == int(attachment)
+        found[int(user)] = int(attachment)
+    return found

@@ -88,6 +88,16 @@ def test_times_of_platforms_and_files(exercise, tmp_path):
     assert times["jane"].said_by == "file"
 
 
+def test_every_attempt_has_its_time(exercise, tmp_path):
+    attempts = {f"1-7 - Jane - Nov {day}, 2026 905 AM": day for day in (19, 20)}
+    with zipfile.ZipFile(tmp_path / "class.zip", "w") as archive:
+        for name in (*attempts, "2-7 - Al - Nov 20, 2026 905 PM"):
+            archive.writestr(f"{name}/{FILE}", "x = 1\n")
+    times = submission_times(tmp_path / "class.zip", exercise)
+    found = {source: submitted.time.day for (student, source), submitted in times.items() if student == "Jane"}
+    assert found == attempts and len(times) == 3
+
+
 def test_the_time_of_a_commit_and_none_of_its_configuration(exercise, tmp_path):
     clone = tmp_path / "class/jane"
     clone.mkdir(parents=True)

@@ -1,5 +1,6 @@
 """A class when the machine fails: what is tried again, what is given up, and where a student's files go."""
 
+import csv
 import json
 from concurrent.futures import Future
 
@@ -35,7 +36,8 @@ class Machine:
         else:
             checks = [{"id": check.id, "points": 0} for check in self.exercise.checks]
             report = {"score": what, "outcome": "graded", "diagnosis": "", "truth_sha256": "t", "checks": checks}
-            future.set_result(Graded(report, {"report.json": json.dumps(report).encode()}))
+            report |= {"recording": "a.rrd", "trials": [{"recording": "a.rrd"}]}
+            future.set_result(Graded(report, {"report.json": json.dumps(report).encode(), "a.rrd": b"run"}))
         return future
 
 
@@ -43,7 +45,7 @@ class Machine:
 def grade(exercise, tmp_path, monkeypatch):
     """Grade students by a plan; returns the results and who was asked for."""
 
-    def run(plan, readers=(), jobs=1):
+    def run(plan, readers=(), jobs=1, told=lambda *_: None, **options):
         machine = Machine(exercise, {name: list(steps) for name, steps in plan.items()})
         monkeypatch.setattr(ClassRun, "_here", lambda self, jobs, stack: (machine, lambda: jobs, lambda: False))
         readers = dict(readers)
@@ -51,7 +53,7 @@ def grade(exercise, tmp_path, monkeypatch):
             Found(name, "", name, readers.get(name, lambda n=name: Selection(".", "x.py", {"x.py": n.encode()})))
             for name in plan
         ]
-        results = ClassRun(exercise, tmp_path / "out").grade(found, lambda *_: None, jobs=jobs)
+        results = ClassRun(exercise, tmp_path / "out", **options).grade(found, told, jobs=jobs)
         return {result["student"]: result for result in results}, machine.asked
 
     return run
@@ -91,6 +93,44 @@ def test_a_submission_that_cannot_be_read_is_one_line_and_nobody_elses(grade, er
     assert (asked, results["jane"]["score"]) == (["jane"], 65)
     assert (results["eve"]["outcome"], results["eve"]["score"]) == (outcome, score)
     assert str(error) in results["eve"]["diagnosis"]
+
+
+def test_who_cannot_be_read_has_a_page_too(grade, tmp_path):
+    def read():
+        raise UsageError("eve holds no <teleop_node.py>")
+
+    grade({"jane": [65], "eve": []}, {"eve": read}, reports=("html",))
+    page = (tmp_path / "out/eve/report.html").read_text()
+    assert "eve holds no &lt;teleop_node.py&gt;" in page and 'id="by-hand"' in page
+
+
+def test_the_gradebook_appears_while_the_run_goes_on(grade, tmp_path):
+    seen = []
+
+    def told(result, anew):
+        data = (tmp_path / "out" / GRADEBOOK).read_bytes()
+        assert data.startswith(b"\xef\xbb\xbf"), "Excel reads UTF-8 by this mark"
+        rows = csv.DictReader(data.decode("utf-8-sig").splitlines())
+        seen.append({row["student"]: (row["score"], row["outcome"]) for row in rows})
+
+    grade({"bob": [0], "jane": [65]}, told=told)
+    first, last = seen
+    assert sorted(first.values()).count(("", "pending")) == 1, "whoever is graded first"
+    assert last == {"bob": ("0", "graded"), "jane": ("65", "graded")}
+
+
+def test_keep_frees_what_earlier_runs_kept(grade, tmp_path):
+    plan = {"full": [100], "jane": [65]}
+    kept = lambda: sorted(path.parent.name for path in (tmp_path / "out").glob("*/a.rrd"))  # noqa: E731
+    grade(plan)
+    assert kept() == ["full", "jane"]
+    for keep, left in (("failing", ["jane"]), ("none", [])):
+        _, asked = grade(plan, keep=keep)
+        assert (asked, kept()) == ([], left)
+    report = json.loads((tmp_path / "out/jane/report.json").read_text())
+    assert report["recording"] is None and report["trials"] == [{"recording": None}]
+    _, asked = grade(plan, keep="all")
+    assert sorted(asked) == ["full", "jane"] and kept() == ["full", "jane"]
 
 
 def test_where_nothing_can_be_graded_we_stop_early(grade, tmp_path):

@@ -4,9 +4,13 @@ import json
 import re
 import shutil
 import time
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
+from gz_course.grader.exercise import find_exercise
+from gz_course.grader.whole_class.explained import EXPLANATION, NO_CHANGE
 from gz_course.grader.whole_class.gradebook import as_csv
 from gz_course.grader.whole_class.index import INDEX, as_page, write_index
 from gz_course.tests.generated_class import names
@@ -49,6 +53,22 @@ def test_what_the_page_holds(exercise, tmp_path):
     assert data_of(as_page(exercise, made, []))["page"] == "report.json"
 
 
+def test_groups_by_the_change_that_would_help(exercise, tmp_path):
+    made = results(exercise, 3)
+    for number, change in ((0, "another sign for angular.z"), (2, NO_CHANGE)):
+        folder = tmp_path / made[number]["folder"]
+        folder.mkdir()
+        kept = {"key": "k", "group": change, "sentences": ["Line 2 decides it."]}
+        (folder / EXPLANATION).write_text(json.dumps(kept))
+    (tmp_path / made[1]["folder"]).mkdir()
+    (tmp_path / made[1]["folder"] / EXPLANATION).write_text("[")
+    write_index(tmp_path, exercise, made, [])
+    data = data_of((tmp_path / INDEX).read_text(encoding="utf-8"))
+    assert data["groups"] == [["another sign for angular.z", 1], [NO_CHANGE, 1]]
+    assert [row[7] for row in data["rows"]] == [0, None, 1]
+    assert data["rows"][0][4].startswith("Line 2 decides it.")
+
+
 @pytest.fixture(scope="module")
 def browser():
     playwright = pytest.importorskip("playwright.sync_api")
@@ -56,6 +76,45 @@ def browser():
         browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--headless=new", "--no-sandbox"])
         yield browser
         browser.close()
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium here: apt-get install chromium")
+@pytest.mark.parametrize("number", ["03", "05"])
+def test_it_fits_a_small_screen_and_opens_all_of_a_student_in_one_place(root, browser, tmp_path, number):
+    exercise = find_exercise(number, root)
+    made = results(exercise, 60)
+    facts = {"submitted": "2026-11-20T12:00:00", "attempts": 2, "changes": ["stops 0 -> 5"]}
+    made = [each | facts | {"diagnosis": f"It drives {n}.5 m/s. More."} for n, each in enumerate(made)]
+    for each in made:
+        (tmp_path / each["folder"]).mkdir()
+        for name in ("report.html", "report.json", "a run.rrd") if each["score"] is not None else ():
+            (tmp_path / each["folder"] / name).touch()
+    write_index(tmp_path, exercise, made, ["html"])
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.set_default_timeout(DEADLINE)
+    faults = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.goto((tmp_path / INDEX).as_uri())
+    page.wait_for_selector("#page:has-text('Page')")
+    assert page.eval_on_selector("html", "page => page.scrollWidth") <= 1280
+    assert page.eval_on_selector(".scroll", "table => table.scrollWidth - table.clientWidth") <= 0
+    text = page.inner_text("main")
+    assert "Hardest checks: " in text and "Handed in from 2026-11-20 12:00" in text and "2 attempts each" in text
+    bars = page.eval_on_selector_all(".bar span:first-child", "all => all.map(one => Number(one.textContent))")
+    assert sum(bars) == 60 and len(bars) == 10
+    page.click("#alike summary")
+    page.click("#faults button")
+    page.click("button.more >> nth=1")
+    page.wait_for_selector("tr.details")
+    told = page.inner_text("tr.details")
+    assert "stops 0 -> 5" in told and "course show 'folder 1 %?#/a run.rrd'" in told
+    assert f'"{made[1]["student"]}"' in told or f"{made[1]['student']},{exercise.name}," in told
+    links = page.eval_on_selector_all("a", "all => all.map(one => one.href)")
+    files = [Path(unquote(urlsplit(link).path)) for link in links]
+    assert len(files) > 50 and all(file.is_file() for file in files), "no link is dead"
+    assert {file.name for file in files} == {"report.html", "report.json", "a run.rrd"}
+    assert faults == []
+    page.close()
 
 
 @pytest.mark.proof

@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from gz_course.grader.errors import RefusedError, UsageError
+from gz_course.grader.learning_platforms.login_map import Person
 from gz_course.grader.whole_class.found import find_submissions
 
 FILE = "teleop_node.py"
@@ -18,8 +19,13 @@ OTHERS = {"jdoe": "1001", "roe": "1002", "a_b": "1003"}
 CANVAS = "{login}_{id}_9{id}_{file}"
 MOODLE, MOODLE_FOLDERS = "{login}_{id}_assignsubmission_file_{file}", "{login}_{id}_assignsubmission_file/{file}"
 BLACKBOARD = f"HW_3_{{login}}_attempt_{STAMP}_{{file}}"
+BRIGHTSPACE_STAMP = "Sep 12, 2026 233 PM"
+BRIGHTSPACE = f"{{id}}-77 - {{login}} - {BRIGHTSPACE_STAMP}/{{file}}"
+BRIGHTSPACE_FILES = f"{{id}}-77 - {{login}} - {BRIGHTSPACE_STAMP} - {{file}}"
+ANONYMOUS = "anon_x{id}_9{id}_{file}"
 GRADESCOPE = "submission_{id}/{file}"
 FORMS = {"Canvas": CANVAS, "Moodle": MOODLE, "Moodle folders": MOODLE_FOLDERS, "Blackboard": BLACKBOARD,
+         "Brightspace": BRIGHTSPACE, "Brightspace files": BRIGHTSPACE_FILES, "Canvas anonymous": ANONYMOUS,
          "Gradescope": GRADESCOPE, "folders": "{login}/{file}"}  # fmt: skip
 
 text = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0/\\"), min_size=1, max_size=12)
@@ -27,12 +33,13 @@ text = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0/\
 pieces = st.sampled_from(
     [*OTHERS, *OTHERS.values(), *(f"9{id}" for id in OTHERS.values()), "eve", "2000", "_", "_", "_", "LATE", "HW_3",
      "_assignsubmission_file_", "_assignsubmission_onlinetext_", f"_attempt_{STAMP}_", "_attempt_2099-01-01-00-00-00_",
-     f"_attempt_{STAMP}.txt", "anon_", "submission_1001", "submission_metadata.yml", FILE, "teleop_node", ".py", ".zip",
+     f"_attempt_{STAMP}.txt", "anon_", "anon_x1001_", " - ", f" - {BRIGHTSPACE_STAMP}", " - Sep 13, 2099 100 AM", "-77",
+     ".PY", ".txt", "-2", "submission_1001", "submission_metadata.yml", FILE, "teleop_node", ".py", ".zip",
      ".tar.gz", "-1", ".", "..", " "]
 )  # fmt: skip
 imitations = st.builds(
     lambda form, login, id: form.format(login=login, id=id, file=FILE),
-    st.sampled_from([CANVAS, MOODLE, BLACKBOARD]),
+    st.sampled_from([CANVAS, MOODLE, BLACKBOARD, BRIGHTSPACE_FILES, ANONYMOUS]),
     st.sampled_from(sorted(OTHERS)),
     st.sampled_from(sorted(OTHERS.values())),
 )
@@ -109,6 +116,21 @@ def test_where_no_platform_names_anything_one_name_is_refused_to_both(exercise, 
         if each != name:
             both = [why for why in holds.values() if isinstance(why, str) and each in why]
             assert holds.get(each) == {each: content.encode()} or (both and chosen in both[0])
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(st.lists(st.sampled_from(["eve", "x-jdoe", "jdoe-1", "x", "roe-jdoe"]), unique=True))
+def test_no_login_takes_the_repository_of_another(exercise, tmp_path, logins):
+    """The assignment before the login is the same for all, so that the end of a login decides nothing."""
+    people = {name: Person(name, f"Student {name}", "") for name in [*OTHERS, *logins]}
+    with zipfile.ZipFile(tmp_path / "class.zip", "w") as archive:
+        for name in people:
+            archive.writestr(f"03-teleop-{name}/{FILE}", name)
+    with ExitStack() as stack:
+        found, _ = find_submissions(tmp_path / "class.zip", exercise, stack, people)
+        assert {each.student: each.read().files[FILE].decode() for each in found} == {
+            f"Student {name}": name for name in people
+        }
 
 
 @pytest.fixture

@@ -50,7 +50,7 @@ def test_what_is_measured_are_the_reports_that_are_there(tmp_path):
         (tmp_path / f"f{number}" / "report.json").write_text(json.dumps({"wall_seconds": 2.0 + number}))
         (tmp_path / f"f{number}" / "x.rrd").write_bytes(bytes(1000))
     assert measured(tmp_path, journal.all(), "failing", 100) == Measured(3.0, 1000.0, 0.5)
-    made = make_plan(tmp_path / "a/b", journal, {"s0", "new"}, trials=1, at_once=1, keep="none", most=100)
+    made = make_plan(tmp_path / "a/b", journal, 2, 1, trials=1, at_once=1, keep="none", most=100)
     assert (made.submissions, made.done, made.measured) == (2, 1, None) and made.free > 0
 
 
