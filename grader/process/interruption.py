@@ -1,27 +1,34 @@
-"""Orderly end of a process on a signal, even if it arrives where Python drops exceptions, such as in a `__del__`."""
+"""Orderly end of a process on a signal, even if it arrives where Python drops exceptions, such as in a `__del__`, or
+where an exception would leave a lock taken (`sim/postponed_signal.py`).
+"""
 
 from __future__ import annotations
 
 import contextlib
-import os
 import signal
 import sys
-import threading
 from collections.abc import Iterator
-from typing import NoReturn
+from types import FrameType
 
-AGAIN = 0.02  # [s] until a dropped signal is sent again
+from gz_course.sim.postponed_signal import postponed, send_again
 
 
 def end_on(*numbers: signal.Signals) -> None:
     """Exit on these signals as after Ctrl-C, with exit code 128 + number, and close all context managers before.
 
-    A SIGHUP that is ignored stays ignored, as `nohup` promises.
+    A SIGHUP that is ignored stays ignored, as `nohup` promises; a SIGINT that is, as a shell's `&` does.
     """
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        hear_interrupts()
     for number in numbers:
         if number != signal.SIGHUP or signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _stop)
     sys.unraisablehook = _unraisable
+
+
+def hear_interrupts() -> None:
+    """Raise KeyboardInterrupt on SIGINT, even if this process was started with SIGINT ignored."""
+    signal.signal(signal.SIGINT, _interrupt)
 
 
 @contextlib.contextmanager
@@ -36,21 +43,21 @@ def undisturbed() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _stop(number: int, _: object) -> NoReturn:
-    sys.exit(128 + number)
+def _stop(number: int, frame: FrameType | None) -> None:
+    if not postponed(number, frame):
+        sys.exit(128 + number)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    if not postponed(number, frame):
+        raise KeyboardInterrupt
 
 
 def _unraisable(dropped: sys.UnraisableHookArgs) -> None:
     error = dropped.exc_value
     if isinstance(error, KeyboardInterrupt):
-        _send_again(signal.SIGINT)
+        send_again(signal.SIGINT)
     elif isinstance(error, SystemExit) and isinstance(error.code, int) and error.code > 128:
-        _send_again(error.code - 128)
+        send_again(error.code - 128)
     else:
         sys.__unraisablehook__(dropped)
-
-
-def _send_again(number: int) -> None:
-    timer = threading.Timer(AGAIN, os.kill, (os.getpid(), number))
-    timer.daemon = True
-    timer.start()
