@@ -20,6 +20,7 @@ from gz_course.grader.errors import InfrastructureError
 # is everybody's default and stays free. Source: DDSI-RTPS 2.2, 9.6.1.
 DOMAINS = range(1, 102)
 FIRST_PORT, PORTS_PER_DOMAIN = 7400, 250
+RESERVED_AS = "gz-ros2-course-domain"  # The abstract socket's name, before the number.
 
 
 class Domain:
@@ -32,7 +33,7 @@ class Domain:
         # Others who speak in a domain would be taken for the submission where the network is shared.
         for candidate in sorted(order, key=_domains_in_use().__contains__):
             try:
-                self._lock.bind(f"\0gz-ros2-course-domain-{candidate}")
+                self._lock.bind(f"\0{RESERVED_AS}-{candidate}")
             except OSError:
                 continue
             self.id = candidate

@@ -13,7 +13,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 
-from gz_course.grader.exercise.trial import ScriptedCommand, ScriptedParameter
+from gz_course.grader.exercise.trial import Entry, ScriptedParameter
 from gz_course.grader.printable import shown
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.run.grader_endpoints import GraderEndpoints
@@ -23,9 +23,7 @@ from gz_course.grader.run.pace.real_time import RealTime
 class ParameterScript:
     """The clients for the nodes that a script names, and what became of each request (`facts`)."""
 
-    def __init__(
-        self, ros: GraderEndpoints, pace: RealTime, script: Iterable[ScriptedCommand | ScriptedParameter]
-    ) -> None:
+    def __init__(self, ros: GraderEndpoints, pace: RealTime, script: Iterable[Entry]) -> None:
         nodes = sorted({each.node for each in script if isinstance(each, ScriptedParameter)})
         self._clients = {node: ros.client(SetParameters, f"{node}/set_parameters") for node in nodes}
         self._pace = pace

@@ -14,12 +14,13 @@ from typing import Any
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.exercise import Exercise
-from gz_course.grader.exercise.trial import ScriptedCommand, ScriptedParameter, Trial
+from gz_course.grader.exercise.trial import Entry, ScriptedCall, ScriptedCommand, ScriptedParameter, Trial
 from gz_course.grader.kinds.kind import RunPlan
 from gz_course.grader.record.messages import record_message
 from gz_course.grader.record.reading import STUDENT_LOG
 from gz_course.grader.record.recorder import Recorder
 from gz_course.grader.record.scene import Scene
+from gz_course.grader.run.call_script import CallScript
 from gz_course.grader.run.compatibility import check_compatibility
 from gz_course.grader.run.console_log import ConsoleLog
 from gz_course.grader.run.endpoint_facts import EndpointFacts
@@ -91,6 +92,7 @@ class RunLoop:
         self._see_scans(plan.entries)
         self._script = [trial.vary(entry) if isinstance(entry, ScriptedCommand) else entry for entry in exercise.script]
         self._parameters = ParameterScript(self._ros, self._pace, self._script)
+        self._calls = CallScript(self._ros, self._pace, self._script)
         self._script_publishers: dict[str, Any] = {}
         self._exit_at: float | None = None
         self._unstable: str | None = None
@@ -215,10 +217,12 @@ class RunLoop:
             self._pace.settle()  # taken by all, all idle, and all they published has arrived
             self._collect()
 
-    def _follow(self, entry: ScriptedCommand | ScriptedParameter) -> None:
+    def _follow(self, entry: Entry) -> None:
         """Do what an entry of the script says."""
         if isinstance(entry, ScriptedParameter):
             self._parameters.set(entry, self._recorder)
+        elif isinstance(entry, ScriptedCall):
+            self._calls.call(entry, self._recorder)
         else:
             self._command(entry)
 
@@ -335,4 +339,5 @@ class RunLoop:
             "flooded": self._pace.flooded,
             "out_of_step": bool(self._pace.paced_ticks),
             **({"parameters_set": self._parameters.facts} if self._parameters.facts else {}),
+            **({"services_called": self._calls.facts} if self._calls.facts else {}),
         }

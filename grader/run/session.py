@@ -118,7 +118,7 @@ def run(
         loop.heartbeat = heartbeat or loop.heartbeat
         with Recorder.begun(path, exercise.robot) as recorder:
             facts = loop.run(recorder)
-            begin = untouched(exercise, submission)
+            begin = untouched(exercise, submission.main, submission.files)
             more = {"untouched": begin} if begin else {}
             write_properties(recorder, exercise, submission, trial, plan.facts | facts | more)
         return RunResult(recorder, sandbox.level, loop.pace_name, loop.wall_seconds)

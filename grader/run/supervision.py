@@ -30,6 +30,7 @@ from typing import Any, NoReturn
 
 from gz_course.grader.errors import InfrastructureError
 from gz_course.grader.process.forking import fork
+from gz_course.grader.process.interruption import hear_interrupts
 from gz_course.grader.process.temporary_folder import abandoned, sweep
 from gz_course.grader.run.sandbox.resource_monitor import descendants
 from gz_course.grader.run.watchdog import MACHINE, Look
@@ -234,7 +235,7 @@ def _child(jobs: list[Job], memory: int, writing: int) -> NoReturn:
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
         with contextlib.suppress(OSError):
             os.setpgid(0, 0)  # Ctrl-C is the parent's to hear
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        hear_interrupts()
         _limit(resource.RLIMIT_AS, MOST_ADDRESSES)
         _limit(resource.RLIMIT_FSIZE, LARGEST_FILE)
         heartbeat = Heartbeat(memory)

@@ -48,8 +48,11 @@ class Worker:
             command = [sys.executable, "-I", "-S", str(become), str(self.user), str(self.tmp), *command]
         kept = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GZ_", "COURSE_"))}
         self.errors = (self.folder / "errors").open("wb")
+        self.terminal, slave = os.openpty()  # as where somebody grades by hand: it is the worker's, and is never read
+        name = os.ttyname(slave)
         self.process = subprocess.Popen(
             command,
+            preexec_fn=lambda: os.close(os.open(name, os.O_RDWR)),
             bufsize=0,  # nothing read ahead: the selector below sees all there is
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -58,6 +61,7 @@ class Worker:
             env=kept | {"TMPDIR": str(self.tmp), "COURSE_ROOT": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
             start_new_session=True,
         )
+        os.close(slave)
         self.numbers = iter(range(10_000))
 
     def _container(self):
@@ -144,6 +148,7 @@ class Worker:
                 each.kill()
         self.process.stdout.close()
         self.errors.close()
+        os.close(self.terminal)
 
 
 class WorkerGoneError(AssertionError):

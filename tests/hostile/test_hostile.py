@@ -5,9 +5,12 @@ have been able to do, and one beginning with `held` for what it has tried in vai
 that are right, `points`, `words` of the diagnosis, and `tried`: how many `held` there must be at least, so that an
 attack that never took place is no success. Afterwards the same worker must give full marks to an honest submission.
 
-With `exercise = "10_actions"`, the attack stands at the beginning of a copy of that exercise's `submission` (a folder
-of its solution), and its function `attacked` takes the place of the server's `on_goal`. With `uses_rtps`, the functions
-of `cases/rtps.py` come before the attack. `most_points` takes the place of `points` where an attack spoils its own run.
+With `exercise`, the attack stands at the beginning of a copy of that exercise's `submission` (a folder of its
+solution); in `10_actions` its function `attacked` takes the place of the server's `on_goal`. With `uses = ["rtps"]`,
+the functions of `cases/rtps.py` come before the attack, and so with other files there. `most_points` takes the place of
+`points` where an attack spoils its own run.
+
+`held` means nothing for an attack that cannot succeed: `test_witnesses.py` runs what `uses` `attempts` without a wall.
 
 A table `[C]` or `[D]` in `expected.toml` replaces those keys at that level. `documented` in it quotes the row of the
 table in `docs/instructors.md` that says what the level does not hold, and `escapes` has words of the lines with ESCAPED
@@ -57,12 +60,10 @@ def tell(request):
 def test_an_attack_comes_to_nothing(case, worker, solution, tell, request):
     want = tomllib.loads((CASES / case / "expected.toml").read_text())
     want |= want.get(worker.level, {})
-    attack = (CASES / case / "attack.py").read_text()
-    if want.get("uses_rtps"):
-        attack = (CASES / "rtps.py").read_text() + attack
+    attack = text_of(case, want)
     files = {"teleop_node.py": f"import attack\n{solution}", "attack.py": attack}
     if "exercise" in want:
-        files = patrol_with(attack, ROOT / "solutions" / want["exercise"], want["submission"])
+        files = attacking(attack, ROOT / "solutions" / want["exercise"], want["submission"])
     if worker.level == "D":  # no other attack is to meet what this one does to its grader
         request.addfinalizer(worker.close)
     try:
@@ -87,15 +88,23 @@ def test_an_attack_comes_to_nothing(case, worker, solution, tell, request):
     assert (honest["network"], honest["mounts"]) == (told["network"], told["mounts"])
 
 
-def patrol_with(attack, solved, variant):
-    """The files of a variant of a solved exercise with an action server, which attacks."""
+def text_of(case, want):
+    """The text of an attack, with what it uses before it."""
+    files = [*(f"{name}.py" for name in want.get("uses", ())), f"{case}/attack.py"]
+    return "\n".join((CASES / name).read_text() for name in files)
+
+
+def attacking(attack, solved, variant):
+    """The files of a variant of a solved exercise, whose program begins with an attack."""
     files = {
         str(p.relative_to(solved)): p.read_text() for p in (solved / "patrol_interfaces").rglob("*") if p.is_file()
     }
-    server, start = (solved / variant / "patrol_server.py").read_text(), 'if __name__ == "__main__":'
-    assert start in server
-    taken = f"PatrolServer.on_goal = attacked(PatrolServer.on_goal)\n\n{start}"
-    return files | {"patrol_server.py": f"{attack}\n{server.replace(start, taken)}"}
+    (program,) = (solved / variant).glob("*.py")
+    text, start = program.read_text(), 'if __name__ == "__main__":'
+    assert start in text
+    if "def attacked(" in attack:
+        text = text.replace(start, f"PatrolServer.on_goal = attacked(PatrolServer.on_goal)\n\n{start}")
+    return files | {program.name: f"{attack}\n{text}"}
 
 
 def faults_of(told, want, level):

@@ -12,7 +12,7 @@ SAYS = {
     "print": "print('x' * 1999)",
     "logger": "self.get_logger().info('x' * 1999)",
 }
-LINES = 600  # each time a command is published: 96 MB in eight seconds
+LINES = 1000  # each time a command is published, some thirty times: 60 MB
 
 
 @pytest.mark.proof

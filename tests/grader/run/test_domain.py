@@ -1,5 +1,6 @@
 """A ROS domain belongs to one run at a time, over all processes of the machine, and comes back with its process."""
 
+import os
 import socket
 import subprocess
 import sys
@@ -12,21 +13,32 @@ from gz_course.grader.run.domain import DOMAINS, Domain
 
 HOLD = """
 import sys
-from gz_course.grader.run.domain import Domain
-d = Domain()
+from gz_course.grader.run import domain
+domain.RESERVED_AS = sys.argv[1]
+d = domain.Domain()
 print(d.id, flush=True)
 sys.stdin.read()
 """
 
 
 @pytest.fixture
-def holders():
+def a_few(monkeypatch):
+    """Keep the gradings of others out of ten domains, and reserve there under a name of our own."""
+    held = [Domain() for _ in range(10)]
+    monkeypatch.setattr(module, "RESERVED_AS", f"test-of-domains-{os.getpid()}")
+    yield [domain.id for domain in held]
+    for domain in held:
+        domain.release()
+
+
+@pytest.fixture
+def holders(a_few):
     """Start processes that hold a domain each; returns their numbers."""
     started = []
 
     def start(count):
         new = [
-            subprocess.Popen([sys.executable, "-c", HOLD], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            subprocess.Popen([sys.executable, "-c", HOLD, module.RESERVED_AS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
             for _ in range(count)
         ]
         started.extend(new)
@@ -52,10 +64,9 @@ def test_domain_zero_and_those_with_ephemeral_ports_are_left_alone():
 
 
 @pytest.fixture
-def only_two(monkeypatch):
-    """As if there were but the two domains that are free at the moment."""
-    with Domain() as one, Domain() as two:
-        pair = sorted({one.id, two.id})
+def only_two(a_few, monkeypatch):
+    """As if there were but two domains."""
+    pair = sorted(a_few[:2])
     monkeypatch.setattr(module, "DOMAINS", range(pair[0], pair[1] + 1, pair[1] - pair[0]))
 
 

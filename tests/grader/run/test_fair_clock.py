@@ -10,6 +10,7 @@ import pytest
 
 from gz_course.grader.run import fair_clock
 from gz_course.grader.run.fair_clock import FairClock, Patience
+from gz_course.tests.own_time import OwnTime
 
 
 @pytest.fixture
@@ -22,7 +23,7 @@ def clock(monkeypatch):
     def call(*looks, ready_at=()):
         steps = iter([*looks])
         wall = [0.0]
-        monkeypatch.setattr(fair_clock.time, "monotonic", lambda: wall[0])
+        monkeypatch.setattr(fair_clock, "time", OwnTime(monotonic=lambda: wall[0]))
 
         def threads(_):
             wall[0], ran, waited = next(steps)
@@ -72,7 +73,7 @@ def test_who_is_ready_to_run_is_asked_of_the_kernel(monkeypatch):
 def test_a_thread_apart_may_wait_for_a_processor_while_the_others_sleep(monkeypatch):
     """On a busy machine, who looks again and again waits all the time; that says nothing about whom it waits for."""
     wall, mine = [0.0], (os.getpid(), 7)
-    monkeypatch.setattr(fair_clock.time, "monotonic", lambda: wall[0])
+    monkeypatch.setattr(fair_clock, "time", OwnTime(monotonic=lambda: wall[0]))
     monkeypatch.setattr(fair_clock, "SAMPLE", 0.0)
     monkeypatch.setattr(fair_clock, "_threads", lambda _: [(mine, (0, round(wall[0] * 1e9))), ((1, 1), (0, 0))])
     all_of_them, but_mine = FairClock(lambda: [1]), FairClock(lambda: [1], apart=7)

@@ -11,6 +11,7 @@ STRANGE = {
     "middleware": {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"},
     "graphics": {"MUJOCO_GL": "nonsense"},
     "recording": {"RERUN": "off"},
+    "recorder": {"RERUN": "nonsense", "RERUN_STRICT": "nonsense"},
     "protobuf": {"PROTOCOL_BUFFERS_PYTHON_IMPLEMENTATION": "nonsense"},
     "profiles": {"FASTDDS_DEFAULT_PROFILES_FILE": "/nowhere.xml", "RMW_FASTRTPS_USE_QOS_FROM_XML": "1"},
 }

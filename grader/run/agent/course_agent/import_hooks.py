@@ -23,6 +23,7 @@ AFTER = {
     "rclpy.action": ("rclpy_7_1_actions", "install"),
     "subprocess": ("python_3", "install_subprocess"),
     "asyncio.base_events": ("python_3", "install_asyncio"),
+    "gz_course.sim.machine_clock": ("python_3", "install_machine_clock"),
 }
 # The same for processes whose Gazebo is simulated by the grader, and our modules that replace those of Gazebo.
 AFTER_WHEN_REMOTE = {

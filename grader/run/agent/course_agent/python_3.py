@@ -4,7 +4,8 @@
 needs a while until it can report anything, so its parent announces it. Event loops (`ros2 launch` is one) and processes
 that wait for a child are reported as waiting, so that simulated time does not stand still for them. Timers of such a
 loop (how long a launch waits after Ctrl-C before it escalates) follow the clock of the run, which the grader keeps; so
-do timeouts of waits for a child. A wait for another process takes real time.
+do timeouts of waits for a child, and what our programs wait for by `sim/machine_clock.py`. A wait for another process
+takes real time.
 """
 
 from __future__ import annotations
@@ -19,11 +20,12 @@ from typing import Any
 
 from .channel import SOCKET, channel
 from .grader_requests import ask
-from .python_3_threads import watched
+from .python_3_threads import at_work, watched
 from .self_check import Reliance, require
 from .thread_monitor import ThreadMonitor, monotonic, sleep
 
 SOON = 10.0  # [s] a timer of an event loop that is due within this time, such as a TimerAction, is waited for
+SLICE = 0.5  # [s] of a wait for a message, after which it is looked whether simulated time has begun
 KNOWN_FOR = 0.05  # [s] after which an event loop asks again for the clock of the run
 # Source: subprocess.py and asyncio/ of CPython 3.11 to 3.14.
 SUBPROCESS: dict[str, Reliance] = {
@@ -135,6 +137,25 @@ def install_asyncio() -> None:
 
     loops._run_once, loops.time = told_run_once, fair_time
     writer._write_to_self = noted_write
+
+
+def install_machine_clock() -> None:
+    """Let waits of our own programs for the machine follow the clock of the run, whatever simulated time does."""
+    from gz_course.sim import machine_clock
+
+    def pause(seconds: float) -> None:
+        with at_work():
+            sleep(seconds)
+
+    def await_event(event: Any, seconds: float) -> bool:
+        end = _run_time() + seconds
+        while not event.is_set() and (left := end - _run_time()) > 0:
+            threads = watched()
+            simulated = threads is not None and threads.simulated and threads.mine() is not None
+            event.wait(left if simulated else min(left, SLICE))
+        return bool(event.is_set())
+
+    machine_clock.now, machine_clock.pause, machine_clock.await_event = _run_time, pause, await_event
 
 
 def tell_start(pid: int, environment: Any, caller: str) -> None:

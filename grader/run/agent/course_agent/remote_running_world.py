@@ -12,7 +12,7 @@ from typing import Any
 
 from .grader_requests import ask
 from .python_3_threads import at_work
-from .thread_monitor import monotonic, sleep
+from .thread_monitor import sleep
 
 LOOK_AGAIN = 0.05  # [s] until a world is asked for again
 
@@ -23,9 +23,10 @@ class RemoteRunningWorld:
     def __init__(
         self, node: Any, name: str, timeout: float, warn: Callable[[str], object], *, start: float | None = None
     ) -> None:
+        from gz_course.sim import machine_clock
         from gz_course.sim.ros.ros_program.errors import Failure
 
-        end = (monotonic() if start is None else start) + timeout
+        end = (machine_clock.now() if start is None else start) + timeout
         worlds: list[str] = []
         while True:
             answer = ask({"worlds": True})
@@ -33,11 +34,11 @@ class RemoteRunningWorld:
             if worlds and (not name or name in worlds):
                 break  # however long it took
             if answer.get("coming"):  # it has not got up yet, perhaps on a busy machine
-                end = max(end, monotonic() + timeout)
+                end = max(end, machine_clock.now() + timeout)
                 with at_work():  # a world that comes does not run on before it is found
                     sleep(LOOK_AGAIN)
                 continue
-            if monotonic() > end:
+            if machine_clock.now() > end:
                 if worlds:
                     raise Failure(f"no world '{name}' appeared within {timeout:g} s; worlds that run are: {worlds[0]}")
                 raise Failure(f"no simulator answered within {timeout:g} s; start gz sim")

@@ -23,7 +23,11 @@ LOAD, JUMP_EQUAL, JUMP_ABOVE, JUMP_ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x0
 NUMBER, ARCHITECTURE, FIRST_ARGUMENT = 0, 4, 16  # offsets in struct seccomp_data
 NAMESPACES = 0x7E020080  # every CLONE_NEW... flag
 CLONE, SOCKET, SOCKETPAIR, CLONE3 = 56, 41, 53, 435
-FAMILIES = (1, 2, 10, 16)  # AF_UNIX, AF_INET, AF_INET6, AF_NETLINK (to list network interfaces)
+FAMILIES = (1, 2, 10, 16)  # AF_UNIX, AF_INET, AF_INET6, AF_NETLINK
+NETLINK, INTERFACES = (
+    16,
+    0,
+)  # the protocol that lists network interfaces; another tells of processes of the whole machine
 
 # Calls refused with EPERM, by x86-64 number.
 REFUSED = {
@@ -55,8 +59,10 @@ OF_ITSELF_ONLY = {
     142: {0: 0}, 144: {0: 0}, 314: {0: 0},  # sched_setparam, sched_setscheduler, sched_setattr
 }  # fmt: skip
 LIMITS_OF_ITSELF_ONLY = {302: {0: 0}}  # prlimit64; refused with EPERM for others
-FCNTL, LEASE = 72, 1024  # a lease on a file lets whoever opens it next wait; refused with EPERM
-SECOND_ARGUMENT = FIRST_ARGUMENT + 8
+# Of fcntl, refused with EPERM: a lease on a file lets whoever opens it next wait; a notification (F_NOTIFY) says that
+# somebody opens files in a folder.
+FCNTL, OF_FILES = 72, (1024, 1026)
+SECOND_ARGUMENT, THIRD_ARGUMENT = FIRST_ARGUMENT + 8, FIRST_ARGUMENT + 16
 
 
 def _step(code: int, value: int, then: int = 0, otherwise: int = 0) -> bytes:
@@ -67,6 +73,7 @@ def program() -> bytes:
     """Return the filter: an array of `struct sock_filter`."""
     no, none = _step(RETURN, REFUSE | errno.EPERM), _step(RETURN, REFUSE | errno.ENOSYS)
     yes, nothing = _step(RETURN, ALLOW), _step(RETURN, REFUSE | 0)
+    other = _step(RETURN, REFUSE | errno.EAFNOSUPPORT)
     steps = [_step(LOAD, ARCHITECTURE), _step(JUMP_EQUAL, AUDIT_ARCH_X86_64, 1, 0), none]
     steps += [_step(LOAD, NUMBER), _step(JUMP_ABOVE, X32_BIT, 0, 1), none]
     for numbers, answer in ((REFUSED, no), (MISSING, none)):
@@ -78,14 +85,19 @@ def program() -> bytes:
             for position, value in allowed.items():
                 steps += [_step(LOAD, FIRST_ARGUMENT + 8 * position), _step(JUMP_EQUAL, value, 1, 0), answer]
             steps += [yes]
-    steps += [_step(JUMP_EQUAL, FCNTL, 0, 4), _step(LOAD, SECOND_ARGUMENT)]
-    steps += [_step(JUMP_EQUAL, LEASE, 0, 1), no, yes]
+    steps += [_step(JUMP_EQUAL, FCNTL, 0, 2 * len(OF_FILES) + 2), _step(LOAD, SECOND_ARGUMENT)]
+    for command in OF_FILES:
+        steps += [_step(JUMP_EQUAL, command, 0, 1), no]
+    steps += [yes]
     steps += [_step(JUMP_EQUAL, CLONE, 0, 4), _step(LOAD, FIRST_ARGUMENT)]
     steps += [_step(JUMP_ANY_BIT, NAMESPACES, 0, 1), no, yes]
+    steps += [_step(JUMP_EQUAL, SOCKET, 0, 5), _step(LOAD, FIRST_ARGUMENT), _step(JUMP_EQUAL, NETLINK, 0, 3)]
+    steps += [_step(LOAD, THIRD_ARGUMENT), _step(JUMP_EQUAL, INTERFACES, 1, 0), other]
+    steps += [_step(LOAD, NUMBER)]
     steps += [_step(JUMP_EQUAL, SOCKET, 1, 0), _step(JUMP_EQUAL, SOCKETPAIR, 0, len(FAMILIES) + 2)]
     steps += [_step(LOAD, FIRST_ARGUMENT)]
     steps += [_step(JUMP_EQUAL, family, len(FAMILIES) - i, 0) for i, family in enumerate(FAMILIES)]
-    steps += [_step(RETURN, REFUSE | errno.EAFNOSUPPORT), yes]
+    steps += [other, yes]
     return b"".join(steps)
 
 

@@ -49,12 +49,13 @@ def test_the_filter_refuses_every_call_it_names_and_says_how():
     assert answers == dict.fromkeys(seccomp.REFUSED, 1) | dict.fromkeys(seccomp.MISSING, 38)
 
 
-def test_no_lease_on_a_file_but_every_other_fcntl():
+def test_no_lease_on_a_file_and_no_notification_but_every_other_fcntl():
     answers = filtered(
         """(lambda f: [error(lambda: libc.fcntl(f, 1024, 0)), error(lambda: libc.fcntl(f, 1, 0)),
-            error(lambda: libc.fcntl(f, 1025, 0))])(os.open(os.__file__, os.O_RDONLY))"""
+            error(lambda: libc.fcntl(f, 1025, 0)), error(lambda: libc.fcntl(os.open("/", os.O_RDONLY), 1026, 1)),
+            ])(os.open(os.__file__, os.O_RDONLY))"""
     )
-    assert answers == [1, 0, 0]
+    assert answers == [1, 0, 0, 1]
 
 
 def test_priority_scheduling_and_limits_are_changed_of_oneself_only():
@@ -86,6 +87,8 @@ def test_the_filter_lets_ordinary_work_through():
     assert filtered("[os.getpid() > 0, os.waitpid(os.fork() or os._exit(7), 0)[1], len(os.listdir('/'))][0]") is True
     families = "[error(lambda: libc.socket(family, 1, 0)) for family in (1, 2, 10, 17, 38, 40)]"
     assert filtered(families) == [0, 0, 0, 97, 97, 97]
+    protocols = "[error(lambda: libc.socket(16, 3, protocol)) for protocol in (0, 4, 9, 11, 15)]"  # of netlink
+    assert filtered(protocols) == [0, 97, 97, 97, 97]
     flags = "[error(lambda: libc.syscall(56, flag | 17, 0, 0, 0, 0)) for flag in (0x10000000, 0x40000000, 0x20000000)]"
     assert filtered(flags) == [1, 1, 1]
     threads = "(lambda t: (t.start(), t.join(), t.is_alive())[2])(__import__('threading').Thread(target=int))"
