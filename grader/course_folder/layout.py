@@ -25,6 +25,7 @@ from gz_course.grader.process.whole_file import write_whole
 from gz_course.grader.tools.notebook_outputs import as_committed
 
 RECORD = ".course.json"
+RELEASED = ".released.json"  # the record of a copy that `course release` wrote, programs included
 DISTRIBUTION = "gz-ros2-course"
 SOLUTIONS = "solutions"
 
@@ -85,7 +86,7 @@ def write_new(folder: Path, files: dict[str, bytes]) -> None:
     existed = folder.exists()
     try:
         write(files, folder)
-        _record(folder, files)
+        record(folder, files)
     except BaseException:
         for each in folder.iterdir() if existed else [folder]:
             shutil.rmtree(each, ignore_errors=True) if each.is_dir() else each.unlink()
@@ -100,9 +101,21 @@ def update(folder: Path) -> Changes:
     return bring(folder, handed_out(solutions=(folder / SOLUTIONS).is_dir() and (material() / SOLUTIONS).is_dir()))
 
 
-def bring(folder: Path, files: dict[str, bytes]) -> Changes:
-    """Bring files to a folder that has a record, and leave alone what the student has changed; raise as `update`."""
-    before = _read_record(folder)
+def update_from(folder: Path, source: Path) -> Changes:
+    """Bring the files of a newer copy to a folder, by the records of both; raise as `update`."""
+    try:
+        files = {name: (source / name).read_bytes() for name in _read_record(source, RELEASED)}
+    except OSError as error:
+        raise UsageError(f"{error.filename} cannot be read: {error.strerror}") from None
+    return bring(folder, files, RELEASED)
+
+
+def bring(folder: Path, files: dict[str, bytes], kept_in: str = RECORD) -> Changes:
+    """Bring files to a folder and leave alone what the student has changed, by its record, the file `kept_in`.
+
+    Raises what `update` raises.
+    """
+    before = _read_record(folder, kept_in)
     changes = Changes()
     try:
         for name, content in files.items():
@@ -126,24 +139,25 @@ def bring(folder: Path, files: dict[str, bytes]) -> Changes:
             if name not in files and path.is_file() and _digest(name, path.read_bytes()) == was:
                 path.unlink()
                 changes.removed.append(name)
-        _record(folder, files)
+        record(folder, files, kept_in)
     except OSError as error:
         raise UsageError(f"{error.filename} cannot be written: {error.strerror}") from None
     return changes
 
 
-def _read_record(folder: Path) -> dict[str, str]:
-    path = folder / RECORD
+def _read_record(folder: Path, kept_in: str) -> dict[str, str]:
+    path = folder / kept_in
     if not path.is_file():
         advice = (
             "in a clone, `make update` gets the newest version"
             if (folder / ".git").exists()
             else "name the folder that was"
         )
-        raise UsageError(f"{folder} was not made by `course init`; {advice}")
+        made_by = "course init" if kept_in == RECORD else "course release"
+        raise UsageError(f"{folder} was not made by `{made_by}`; {advice}")
     try:
-        record = json.loads(path.read_bytes())
-        files, made_by = record["files"], str(record["version"])
+        about = json.loads(path.read_bytes())
+        files, made_by = about["files"], str(about["version"])
         if not all(isinstance(name, str) and isinstance(digest, str) for name, digest in files.items()):
             raise ValueError
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
@@ -172,7 +186,8 @@ def _replace(path: Path, content: bytes) -> None:
     write_whole(path, content)
 
 
-def _record(folder: Path, files: dict[str, bytes]) -> None:
+def record(folder: Path, files: dict[str, bytes], kept_in: str = RECORD) -> None:
+    """Write the record of files that were laid out in a folder."""
     digests = {name: _digest(name, content) for name, content in sorted(files.items())}
-    record = {"version": version(DISTRIBUTION), "files": digests}
-    _replace(folder / RECORD, (json.dumps(record, indent=1) + "\n").encode())
+    about = {"version": version(DISTRIBUTION), "files": digests}
+    _replace(folder / kept_in, (json.dumps(about, indent=1) + "\n").encode())

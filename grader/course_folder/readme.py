@@ -54,4 +54,7 @@ Each chapter in `chapters/` is a notebook that leads to the exercise of the same
 ```
 jupyter lab {notebooks[0]} --ServerApp.root_dir="$PWD"
 ```
+
+[The glossary](chapters/glossary.ipynb) explains the terms, and [the cheat sheet](chapters/cheat_sheet.html) has topics,
+types and commands on two pages to print: open it in a browser.
 """

@@ -41,8 +41,8 @@ def attempt(
     directory = Path.cwd()
     running = [program for program in room.running if not program.stopped]
     try:
+        output = execute(step, body, names, folder, transform)
         with within(step.limit):
-            output = execute(step, body, names, folder, transform)
             done, seen = True, step.check(RunningWorld(room, (step.name, body, output), names, folder))
     except NotYet as missing:
         done, seen = False, str(missing)

@@ -28,6 +28,7 @@ MOST_OUTPUT = 20_000  # [characters] of a cell that are shown
 PLACEHOLDER = re.compile(r"(?<![.\w])\.\.\.(?![.\w])")
 UNTOUCHED = "Nothing is written here yet: put your own lines in place of the dots, and run the cell again."
 SHELL_LINE = re.compile(r"^\s*(\w+ = )?[!%]", re.MULTILINE)
+BANG = re.compile(r"^\s*!", re.MULTILINE)  # before a command, as in other cells of a notebook
 AGAIN = 1.0  # [s] between two interrupts of a cell that catches the first
 GRACE = 0.5  # [s] from SIGINT to SIGTERM and from there to SIGKILL, for what a command has started
 EXTRA = 9  # times that a crowded machine gets the limit anew
@@ -63,9 +64,10 @@ def execute(step: Step, body: str, names: dict[str, Any], folder: Path, transfor
     if untouched(body, step.form):
         raise NotYet(UNTOUCHED)
     if step.form == PYTHON:
-        return _python(step.name, body, names, transform)
+        with within(step.limit):
+            return _python(step.name, body, names, transform)
     if step.form == COMMANDS:
-        output = run_commands(body, folder, step.limit / 3)
+        output = run_commands(BANG.sub("", body), folder, step.limit / 3)
         sys.stdout.write(output)
         return output
     (folder / step.form).write_text(body if body.endswith("\n") else body + "\n", encoding="utf-8")
@@ -75,7 +77,7 @@ def execute(step: Step, body: str, names: dict[str, Any], folder: Path, transfor
 def run_commands(script: str, folder: Path, deadline: float) -> str:
     """Return what the lines of a shell print. What they started is ended with them.
 
-    Raises NotYet if they do not end within `deadline` [s].
+    Raises NotYet if they do not end within `deadline` [s], which begins anew on a crowded machine, up to `EXTRA` times.
     """
     process = subprocess.Popen(
         ["/bin/bash", "-c", script],
@@ -86,12 +88,7 @@ def run_commands(script: str, folder: Path, deadline: float) -> str:
         start_new_session=True,
     )
     try:
-        output, _ = process.communicate(timeout=deadline * (EXTRA if crowded() else 1))
-    except subprocess.TimeoutExpired:
-        raise NotYet(
-            f"The command had not ended after {deadline:g} s. Ask it to end by itself, "
-            "for example with --once, --times or -n."
-        ) from None
+        output = _output(process, deadline)
     finally:
         for ending in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             with contextlib.suppress(ProcessLookupError):
@@ -101,6 +98,19 @@ def run_commands(script: str, folder: Path, deadline: float) -> str:
                 if not _group_lives(process.pid):
                     break
     return shortened(output.decode(errors="replace"))
+
+
+def _output(process: subprocess.Popen[bytes], deadline: float) -> bytes:
+    for left in range(EXTRA, -1, -1):
+        try:
+            return process.communicate(timeout=deadline)[0]
+        except subprocess.TimeoutExpired:
+            if not (left and crowded()):
+                break
+    raise NotYet(
+        f"The command had not ended after {deadline:g} s. Ask it to end by itself, "
+        "for example with --once, --times or -n."
+    )
 
 
 def shortened(text: str) -> str:
@@ -153,7 +163,7 @@ def own_words(file: str) -> Iterator[None]:
         if frames:
             line = (frames[-1].line or "").strip()
             where = f"Line {frames[-1].lineno}, `{line[:LONGEST_LINE]}`, raises "
-        raise NotYet(f"{where}{text}.") from None
+        raise NotYet(f"{where}{text.rstrip('.')}.") from None
 
 
 @contextlib.contextmanager

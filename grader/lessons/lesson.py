@@ -17,6 +17,8 @@ They stand in `grading/lesson.toml` of the chapter's exercise, the steps in `gra
 
     [graded]                      # objective -> the checks of the exercise that grade it
     1 = ["drives"]
+    2 = ["07_frames:ahead"]       # a check of a later exercise
+    3 = ["cell:circle"]           # a cell to write, whose check is the only one
 
 A prediction without choices is a line of text.
 """

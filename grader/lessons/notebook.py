@@ -1,4 +1,5 @@
-"""What a notebook of the course can do: `%%step` for cells to write, `room.predict` and `room.review`.
+"""What a notebook of the course can do: `%%step` for cells to write, `room.predict`, `room.review` and
+`room.stuck`.
 
 A playground puts it in force in the notebook's kernel. The chapter is the folder that the kernel runs in.
 """
@@ -15,6 +16,7 @@ from gz_course.grader.lessons.attempt import attempt
 from gz_course.grader.lessons.kept import PREDICTIONS, STEPS, Kept
 from gz_course.grader.lessons.lesson import Lesson, Question, load_lesson
 from gz_course.grader.lessons.questions import Ask, beside, judged
+from gz_course.grader.lessons.stuck import Stuck
 
 if TYPE_CHECKING:
     from gz_course.grader.tools.playground import Playground
@@ -92,6 +94,10 @@ class Classroom:
         for each in asked:
             each._ipython_display_()
         return None
+
+    def stuck(self) -> Stuck:
+        """Offer the help that there is on this chapter's exercise."""
+        return Stuck(self.folder.name, self.folder)
 
     def after_cell(self, _result: Any = None) -> None:
         """Set a prediction beside the outcome, at the end of the cell after it."""

@@ -5,16 +5,16 @@ Used by `notebook.py`. A choice is kept as soon as it is made.
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from typing import Any
 
+from gz_course.grader.lessons.in_notebook import InNotebook
 from gz_course.grader.lessons.lesson import Question
 
 NOTHING = "You made no prediction."
 
 
-class Ask:
+class Ask(InNotebook):
     """A question in a notebook: shows the choices, and calls `chosen` with the words of the one taken."""
 
     def __init__(self, question: Question, call: str, said: str | None, chosen: Callable[[str], str]) -> None:
@@ -27,20 +27,8 @@ class Ask:
         said = f"Your answer: {self._said}" if self._said else f"To answer, write {self._call.format(example)}"
         return "\n".join([*filter(None, [self._question.question]), *choices, said])
 
-    def _ipython_display_(self) -> None:
-        from IPython.display import display
-
-        if (box := self._widget()) is None:
-            print(self)
-        else:
-            display(box)
-
-    def _widget(self) -> Any:
-        """Return radio buttons or a line of text; None where there are no widgets."""
-        try:
-            widgets = importlib.import_module("ipywidgets")
-        except ModuleNotFoundError:
-            return None
+    def _made_of(self, widgets: Any) -> Any:
+        """Return radio buttons or a line of text."""
         answer = widgets.HTML()
         choices = self._question.choices
         said = self._said or None

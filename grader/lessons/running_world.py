@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import importlib
 import math
+import re
 import threading
 import time
 from collections.abc import Callable
@@ -18,13 +19,16 @@ from typing import TYPE_CHECKING, Any
 from gz_course.grader.lessons.cell import own_words, run_commands
 from gz_course.grader.lessons.observer import SEEN, SpinUntil, both_ways, named, observer, until_found
 from gz_course.grader.lessons.step import NotYet, Pose, Tried
+from gz_course.grader.process.load import crowded
 
 if TYPE_CHECKING:
     from gz_course.grader.tools.playground import Playground, Program
 
 OF_EVERY_NODE = {"/rosout", "/parameter_events"}
 OF_ROS2_RUN = "[ros2run]"
+FAULT = re.compile(r"^\[(?:WARN|ERROR)\] \[[\d.]+\] \[(\S+)\]: (.+)$", re.MULTILINE)
 POSES = "/dynamic_pose/info"
+ROUNDS = 3  # of waiting for messages, as long as some come in each
 TRIES = 2  # a single message may be lost while two nodes find each other
 STARTED = 12.0  # [s] from the start of a command until its node is found
 READY = 30.0  # [s] until a command says what it is waited for
@@ -38,6 +42,7 @@ class RunningWorld(Tried):
         step, self.body, self.output = cell
         self._room, self._names, self.folder = room, names, folder
         self._file = f"<step {step}>"
+        self._started_here: list[Program] = []
 
     def value(self, name: str, kind: type | tuple[type, ...] = object) -> Any:
         if name not in self._names or self._names[name] is ...:
@@ -78,6 +83,7 @@ class RunningWorld(Tried):
             program.stop()
             last = f"; its last line is: {said}" if said else " and has printed nothing"
             raise NotYet(f"`{command}` {state}{last}") from None
+        self._started_here.append(program)
         return program
 
     def stop(self, command: str) -> str:
@@ -94,7 +100,9 @@ class RunningWorld(Tried):
         found = self._listen(topic, message_type, count, deadline)
         if len(found) < count:
             came = f"only {len(found)} of {count} messages came" if found else "no message came"
-            raise NotYet(f"On {topic} {came}. Does what publishes there run?")
+            faults = (_fault(program.output) for program in self._started_here)
+            why = next(filter(None, faults), "Does what publishes there run?")
+            raise NotYet(f"On {topic} {came}. {why}")
         return found
 
     def heard_from(
@@ -145,7 +153,10 @@ class RunningWorld(Tried):
             node.create_subscription(_message(message_type), topic, found.append, _sensor_qos())
             until_found(node, spin_until, lambda: bool(found) or node.count_publishers(topic) > 0)
             if found or node.count_publishers(topic):
-                spin_until(lambda: len(found) >= count, deadline)
+                rounds, before = 0, -1
+                while before < len(found) < count and (rounds < ROUNDS or crowded()):  # a slow world goes on
+                    rounds, before = rounds + 1, len(found)
+                    spin_until(lambda: len(found) >= count, deadline)
         return found[:count]
 
     def topics(self, *wanted: str) -> dict[str, list[str]]:
@@ -252,6 +263,12 @@ def _last_line(output: str) -> str:
     """Return what a program said last; not what `ros2 run` says of its end."""
     said = [line for line in output.splitlines() if line.strip() and not line.startswith(OF_ROS2_RUN)]
     return said[-1] if said else ""
+
+
+def _fault(output: str) -> str:
+    """Return the first error that a ROS program has logged, as a sentence; empty if there is none."""
+    found = FAULT.search(output)
+    return f"{found[1]} says: {found[2].rstrip('.')}." if found else ""
 
 
 def _sensor_qos() -> Any:

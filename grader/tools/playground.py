@@ -50,6 +50,7 @@ from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
     from gz_course.grader.lessons.questions import Ask
+    from gz_course.grader.lessons.stuck import Stuck
     from gz_course.grader.report.html.replay import Replay
     from gz_course.grader.tools.live_frame import LiveFrame, WorldView
 
@@ -294,6 +295,10 @@ class Playground:
     def review(self, chapter: str, number: int = 0, choice: int | str | None = None) -> Any:
         """Ask the questions of a chapter, or answer one of them by its number. Raises UsageError."""
         return self._classroom.review(chapter, number, choice)
+
+    def stuck(self) -> Stuck:
+        """Return buttons for the next hint and for `course explain`, or the commands where there are no widgets."""
+        return self._classroom.stuck()
 
     def report(self) -> str:
         """Return which programs run and which have ended, with their output: to be read when no messages arrive."""

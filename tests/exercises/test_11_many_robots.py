@@ -150,7 +150,7 @@ def said_of_a_bridge(node, topic, gz_topic):
         "publisher_qos": None, "subscription_qos": None,
     }  # fmt: skip
     facts = {"bridges": [bridge], "launch": {"bridges_started": [{"node": node}]}}
-    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {})
+    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {}, signals=list)
     return TOPICS.own_topics(recording, {}).explanation
 
 
@@ -194,7 +194,9 @@ def follower(node="/robot2/follower", front="/robot1/odom"):
         {"kind": "publisher", "topic": "/robot2/cmd_vel", "node": node},
     ]
     facts = {"endpoints": ends, "launch": {}}
-    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: {}, lines=lambda entity: [])
+    recording = SimpleNamespace(
+        facts=lambda: facts, properties=lambda entity: {}, lines=lambda entity: [], signals=list
+    )
     return TOPICS.listens_to_the_one_in_front(recording, {})
 
 
@@ -281,7 +283,9 @@ def test_only_the_last_robot_has_no_follower():
     ends = [{"kind": kind, "topic": topic, "node": "/robot2/follower"} for topic, kind in topics.items()]
     facts = {"endpoints": ends, "launch": {}}
     given = {"trial_parameters": '{"parameters": {"robots": "3"}}'}
-    recording = SimpleNamespace(facts=lambda: facts, properties=lambda entity: given, lines=lambda entity: [])
+    recording = SimpleNamespace(
+        facts=lambda: facts, properties=lambda entity: given, lines=lambda entity: [], signals=list
+    )
     assert "only the last robot, robot3" in TOPICS.listens_to_the_one_in_front(recording, {}).explanation
 
 

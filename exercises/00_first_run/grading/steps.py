@@ -6,22 +6,13 @@ import math
 import re
 from typing import Any
 
-from gz_course.grader.lessons.motion import Motion, motion_of
-from gz_course.grader.lessons.observer import until_known
-from gz_course.grader.lessons.step import COMMANDS, Tried, expect, step
+from gz_course.grader.lessons.motion import motion_in_the_middle
+from gz_course.grader.lessons.observer import SEEN, until_known
+from gz_course.grader.lessons.step import COMMANDS, NotYet, Tried, expect, step
 
-SECONDS = 2.0  # of simulated time in which a motion is looked at
-SETTLED = 10  # poses from the moment that the robot is placed
 POSITION = re.compile(r"\[(-?\d\S*) (-?\d\S*) (-?\d\S*)\]")
-FOUND = 8.0  # [s] in which the subscription of a node that is known is found
 TICKS = 45  # tenths of a second that its time lasts
 NEAR = 0.5  # [m] that the robot may have driven since its position was printed
-
-
-def motion(tried: Tried) -> Motion:
-    """Return how the robot moves in the middle of the room, away from the walls."""
-    tried.place("robot", 0.0, 0.0)
-    return motion_of(tried.poses("robot", SECONDS)[SETTLED:])
 
 
 def greetings(tried: Tried, command: str) -> list[Any]:
@@ -33,14 +24,14 @@ def greetings(tried: Tried, command: str) -> list[Any]:
         clock = node.create_publisher(Clock, "/clock", 10)
         tried.start(command, ready="")
         until_known(node, spin_until, "/greeting")
-        spin_until(lambda: clock.get_subscription_count() > 0, FOUND)
+        spin_until(lambda: clock.get_subscription_count() > 0, SEEN)
         expect(not heard, "A message came on /greeting at once, before the timer fired.")
         for tick in range(1, TICKS):
             now = Clock()
             now.clock.sec, now.clock.nanosec = tick // 10, tick % 10 * 100_000_000
             clock.publish(now)
             spin_until(lambda: False, 0.05)
-        spin_until(lambda: bool(heard), FOUND)
+        spin_until(lambda: bool(heard), SEEN)
     tried.stop(command)
     return heard
 
@@ -48,7 +39,7 @@ def greetings(tried: Tried, command: str) -> list[Any]:
 @step("drive", objective=2)
 def drive(tried: Tried) -> str:
     """The robot drives straight ahead at 0.3 m/s."""
-    moves = motion(tried)
+    moves = motion_in_the_middle(tried)
     seen = f"The robot {moves}"
     expect(abs(moves.rate) < 0.03, f"{seen}; straight ahead means 0 rad/s.")
     expect(abs(moves.speed - 0.3) < 0.03, f"{seen}; 0.3 m/s is wanted.")
@@ -58,9 +49,8 @@ def drive(tried: Tried) -> str:
 @step("stop", objective=2, form=COMMANDS)
 def stop(tried: Tried) -> str:
     """The robot stands still."""
-    moves = motion(tried)
-    still = abs(moves.speed) < 0.02 and abs(moves.rate) < 0.02
-    expect(still, f"The robot still {moves}; it obeys the last command it got.")
+    moves = motion_in_the_middle(tried)
+    expect(moves.stands, f"The robot still {moves}; it obeys the last command it got.")
     return "The robot stands still."
 
 
@@ -69,8 +59,7 @@ def where(tried: Tried) -> str:
     """The position of the robot is printed."""
     found = POSITION.search(tried.output)
     if found is None:
-        expect(False, "The command printed no position, three numbers in brackets.")
-        return ""
+        raise NotYet("The command printed no position, three numbers in brackets.")
     x, y = float(found[1]), float(found[2])
     robot = tried.poses("robot")[-1]
     expect(

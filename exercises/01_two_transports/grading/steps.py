@@ -7,20 +7,12 @@ from typing import Any
 
 import yaml
 
-from gz_course.grader.lessons.motion import Motion, motion_of
+from gz_course.grader.lessons.motion import expect_turn, motion_in_the_middle
 from gz_course.grader.lessons.step import COMMANDS, NotYet, Tried, expect, step
 
-SECONDS = 2.0  # of simulated time in which a motion is looked at
-SETTLED = 10  # poses from the moment that the robot is placed
 GRAVITY = (9.0, 10.6)  # [m/s^2] that an IMU measures upwards while it stands, with its noise
 SCAN = "/lidar/scan"
 COLUMNS = ("ros_topic", "ros_type", "gz_topic", "gz_type", "direction", "publisher")
-
-
-def motion(tried: Tried) -> Motion:
-    """Return how the robot moves in the middle of the room, away from the walls."""
-    tried.place("robot", 0.0, 0.0)
-    return motion_of(tried.poses("robot", SECONDS)[SETTLED:])
 
 
 def gz_ends(tried: Tried, topic: str) -> dict[str, list[str]]:
@@ -50,23 +42,17 @@ def measure(tried: Tried) -> str:
 @step("turn_left", objective=2, form=COMMANDS)
 def turn_left(tried: Tried) -> str:
     """The robot turns on the spot, to the left, at 0.5 rad/s, by a command of Gazebo."""
-    moves = motion(tried)
-    seen = f"The robot {moves}"
-    expect(abs(moves.speed) < 0.03, f"{seen}; on the spot means 0 m/s.")
-    expect(moves.rate > -0.05, f"{seen}, to the right; a turn to the left is positive.")
-    expect(abs(moves.rate - 0.5) < 0.05, f"{seen}; 0.5 rad/s is wanted.")
-    return f"{seen}: to the left, on the spot."
+    moves = motion_in_the_middle(tried)
+    expect_turn(moves, 0.5)
+    return f"The robot {moves}: to the left, on the spot."
 
 
 @step("through", objective=4, form=COMMANDS)
 def through(tried: Tried) -> str:
     """The robot turns on the spot, to the right, at 0.5 rad/s, by a message of ROS."""
-    moves = motion(tried)
-    seen = f"The robot {moves}"
-    expect(abs(moves.speed) < 0.03, f"{seen}; on the spot means 0 m/s.")
-    expect(moves.rate < 0.05, f"{seen}, to the left; a turn to the right is negative.")
-    expect(abs(moves.rate + 0.5) < 0.05, f"{seen}; -0.5 rad/s is wanted.")
-    return f"{seen}: a message of ROS reached a robot in Gazebo."
+    moves = motion_in_the_middle(tried)
+    expect_turn(moves, -0.5)
+    return f"The robot {moves}: a message of ROS reached a robot in Gazebo."
 
 
 @step("row", objective=2, form="row.yaml")

@@ -32,7 +32,7 @@ def models(tried: Tried) -> set[str]:
     return set(MODEL.findall(tried.command("gz model --list")))
 
 
-@step("running", objective=3, form="running.launch.py", limit=LONG)
+@step("running", objective=1, form="running.launch.py", limit=LONG)
 def running(tried: Tried) -> str:
     """The launch file starts the room, and time runs."""
     launched(tried, "running.launch.py")

@@ -4,43 +4,30 @@ from __future__ import annotations
 
 from typing import Any
 
-from gz_course.grader.lessons.motion import Motion, motion_of
+from gz_course.grader.lessons.motion import expect_turn, motion_in_the_middle
 from gz_course.grader.lessons.step import COMMANDS, Tried, expect, step
 
-SECONDS = 2.0  # of simulated time in which a motion is looked at
-SETTLED = 10  # poses from the moment that the robot is placed
 
-
-def motion(tried: Tried) -> Motion:
-    """Return how the robot moves in the middle of the room, away from the walls."""
-    tried.place("robot", 0.0, 0.0)
-    return motion_of(tried.poses("robot", SECONDS)[SETTLED:])
-
-
-@step("turn_right", objective=2, form=COMMANDS)
+@step("turn_right", objective=1, form=COMMANDS)
 def turn_right(tried: Tried) -> str:
     """The robot turns on the spot, to the right, at 0.5 rad/s."""
-    moves = motion(tried)
-    seen, rate = f"The robot {moves}", moves.rate
-    expect(abs(moves.speed) < 0.03, f"{seen}; on the spot means 0 m/s.")
-    expect(rate < 0.05, f"{seen}, to the left; a turn to the right is negative.")
-    expect(abs(rate + 0.5) < 0.05, f"{seen}; -0.5 rad/s is wanted.")
-    return f"{seen}: to the right, on the spot."
+    moves = motion_in_the_middle(tried)
+    expect_turn(moves, -0.5)
+    return f"The robot {moves}: to the right, on the spot."
 
 
 @step("stop", objective=3, form=COMMANDS)
 def stop(tried: Tried) -> str:
     """The robot stands still."""
-    moves = motion(tried)
-    still = abs(moves.speed) < 0.02 and abs(moves.rate) < 0.02
-    expect(still, f"The robot still {moves}; it obeys the last command it got.")
+    moves = motion_in_the_middle(tried)
+    expect(moves.stands, f"The robot still {moves}; it obeys the last command it got.")
     return "The robot stands still."
 
 
 @step("circle", objective=2)
 def circle(tried: Tried) -> str:
     """The robot drives a circle with a radius of 0.5 m, to the left."""
-    moves = motion(tried)
+    moves = motion_in_the_middle(tried)
     speed, rate = moves.speed, moves.rate
     expect(abs(speed) > 0.05, f"The robot drives at {speed:z.2f} m/s: too slowly to see a circle.")
     expect(abs(rate) > 0.02, f"The robot drives at {speed:z.2f} m/s straight on; a circle needs a turn.")

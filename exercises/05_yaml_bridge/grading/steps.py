@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from gz_course.grader.lessons.motion import motion_of
+from gz_course.grader.lessons.motion import motion_in_the_middle
 from gz_course.grader.lessons.step import NotYet, Tried, expect, step
 
 BRIDGE = "ros2 run ros_gz_bridge"
@@ -12,7 +12,6 @@ SCAN = "sensor_msgs/msg/LaserScan"
 ERROR = re.compile(r"^\[ERROR\] \[\S+\] \[ros_gz_bridge\]: (.*)$", re.MULTILINE)
 FAULT = re.compile(r"^\S+:\d+: (?:error|warning): .*$", re.MULTILINE)
 SECONDS = 1.5  # of simulated time in which a motion is looked at
-SETTLED = 10  # poses from the moment that the robot is placed
 AHEAD = 0.3  # [m/s] that is commanded
 MENDED = {
     "/scan": "sensor_msgs/msg/LaserScan",
@@ -33,10 +32,9 @@ def bridged(tried: Tried, file: str) -> None:
 def drives_by(tried: Tried, topic: str) -> None:
     """Command the robot ahead on a ROS topic, and expect that it drives, and that no command comes back."""
     expect(tried.subscribers(topic), f"Nobody in ROS listens to {topic}: the bridge carries no command to Gazebo.")
-    tried.place("robot", 0.0, 0.0)
     pub = f"ros2 topic pub --once {topic} geometry_msgs/msg/Twist"
     tried.command(f"{pub} '{{linear: {{x: {AHEAD}}}}}'")
-    moves = motion_of(tried.poses("robot", SECONDS)[SETTLED:])
+    moves = motion_in_the_middle(tried, SECONDS)
     tried.command(f"{pub} '{{}}'")
     expect(
         abs(moves.speed - AHEAD) < 0.05,

@@ -16,6 +16,7 @@ from gz_course.grader.feedback.recorded.places import suspect
 from gz_course.grader.printable import shown
 from gz_course.grader.record.reading import Recording
 from gz_course.grader.score.check import Finding
+from gz_course.grader.score.topic_faults import subscriptions
 
 from . import directions, misconceptions, stopping
 from .hall import (
@@ -49,8 +50,10 @@ def places_the_posts(recording: Recording, parameters: dict[str, Any]) -> Findin
     points, stamps, came = said_points(recording)
     if len(points) < FEWEST:
         number = f"{len(points) or 'no'} points came on /red_post"
-        why = misconceptions.too_few_points(recording, points)
-        return Finding(False, expected, f"{number}, at least {FEWEST} are needed", explanation=why)
+        deaf = subscriptions(recording, recording.facts()).rstrip(".")
+        why = deaf or misconceptions.too_few_points(recording, points)
+        nothing = not len(points) and not deaf
+        return Finding(False, expected, f"{number}, at least {FEWEST} are needed", explanation=why, nothing=nothing)
     red, names = posts(recording, "red")
     at = pose(recording, stamps)
     there = placed(at, points[:, 0], points[:, 1])
@@ -238,7 +241,7 @@ def turns_once(recording: Recording, parameters: dict[str, Any]) -> Finding:
             why = misconceptions.on_and_on(recording)
         elif abs(turned) < 0.1:
             why = misconceptions.never_turned(recording)
-        return Finding(False, expected, measured, explanation=why)
+        return Finding(False, expected, measured, explanation=why, nothing=abs(turned) < 0.1)
     measured = f"when the number came, at {when / 1e9:.2f} s, it had turned by {math.degrees(turned):.0f} degrees"
     passed = abs(turned - FULL_TURN) <= TURN_OFF
     why = "" if passed else why_turned(recording, when, turned) or misconceptions.too_fast(recording, turned)

@@ -15,6 +15,7 @@ PERIOD = 0.1  # [s] between two scans
 START = 2.02  # [m] the error at first, as in the chapter
 BESIDE = 0.8 * math.pi  # [rad] bearing up to which a wall is beside the robot
 MOST = 1.5  # [rad/s]
+HEARD = 50.0  # [s] until the first message, and until all of them
 WANTED, SPEED = 0.6, 0.4  # [m], [m/s] of a drive along a wall in these checks
 
 
@@ -56,13 +57,28 @@ def late_gain(tried: Tried) -> str:
 def calm(tried: Tried) -> str:
     """The keeper goes on keeping its distance, and no longer shakes."""
     tried.place("robot", 2.2, 1.45, math.pi)
-    seen = tried.heard("/loop", "geometry_msgs/msg/Vector3", count=50, deadline=100.0)[5:]
+    seen = loop_during(tried, scans=50)[5:]
     fast = [each.z for each in seen if abs(each.z) > 0.2]
     changes = sum(a * b < 0 for a, b in itertools.pairwise(fast))
     off = max(abs(each.x - each.y) for each in seen[-8:])
+    if changes > 1 or off >= 0.15:  # what this attempt has set is not in the way of the next one
+        tried.command("ros2 param set /keeper speed_limit 0.6")
     expect(changes <= 1, f"The keeper changes between forward and back {changes} times in 4.5 s: it still shakes.")
     expect(off < 0.15, f"After 4.5 s the keeper is still {off:z.2f} m away from its distance.")
     return f"The keeper is within {off:z.2f} m of its distance after 4.5 s, and does not shake."
+
+
+def loop_during(tried: Tried, scans: int) -> list[Any]:
+    """Return what the keeper publishes on /loop during so many scans: less where the lidar measures no distance."""
+    loop: list[Any] = []
+    scanned: list[Any] = []
+    with tried.node() as (node, spin_until):
+        node.create_subscription(tried.message_type("geometry_msgs/msg/Vector3"), "/loop", loop.append, 10)
+        spin_until(lambda: bool(loop), HEARD)
+        node.create_subscription(tried.message_type("sensor_msgs/msg/LaserScan"), "/lidar/scan", scanned.append, 10)
+        spin_until(lambda: len(scanned) >= scans or len(loop) >= scans, HEARD)
+    expect(len(loop) > 5, f"On /loop came {len(loop)} messages; one for each scan is wanted: is the keeper running?")
+    return loop
 
 
 @step("parameters", objective=4, form="parameters.py")
@@ -105,6 +121,8 @@ def nearest_beside(tried: Tried) -> str:
             wanted = min(ray for ray in rays if 0 <= ray[1] <= BESIDE)
             said = function(each, side)
             expect(_pair(said), f"It returns {said!r}; two numbers, (range, bearing), are wanted.")
+            finite = all(map(math.isfinite, said))
+            expect(finite, f"It returns {said!r}; only ranges between range_min and range_max are hits.")
             near = abs(said[0] - wanted[0]) < 1e-3 and abs(said[1] - wanted[1]) < 0.02
             expect(
                 near,
@@ -164,6 +182,6 @@ def _parameters(printed: str) -> dict[str, Any]:
 
 def _pair(said: Any) -> bool:
     try:
-        return len(said) == 2 and all(math.isfinite(each) for each in said)
+        return len([math.isfinite(each) for each in said]) == 2
     except TypeError:
         return False

@@ -5,11 +5,9 @@ from __future__ import annotations
 import ast
 import math
 
-from gz_course.grader.lessons.motion import Motion, motion_of
+from gz_course.grader.lessons.motion import motion_in_the_middle, motion_of
 from gz_course.grader.lessons.step import COMMANDS, NotYet, Tried, expect, step
 
-SECONDS = 2.0  # of simulated time in which a motion is looked at
-SETTLED = 10  # poses from the moment that the robot is placed
 TURNED = 0.15  # [rad] that a turn may be off: the server stops within 0.05, and looks ten times a second
 LONGEST = 8  # [s] of simulated time until a service has answered
 NEAR, FAR = 0.2, 0.6  # [m] that a robot drives at least for 0.3 m, and by which it has passed them
@@ -22,16 +20,10 @@ DRIVE = {
 PACKAGE = "drive_ws/src/turn_interfaces"
 
 
-def motion(tried: Tried) -> Motion:
-    """Return how the robot moves in the middle of the room, away from the walls."""
-    tried.place("robot", 0.0, 0.0)
-    return motion_of(tried.poses("robot", SECONDS)[SETTLED:])
-
-
 @step("faster", objective=2, form=COMMANDS)
 def faster(tried: Tried) -> str:
     """The robot circles at 0.3 m/s."""
-    moves = motion(tried)
+    moves = motion_in_the_middle(tried)
     expect(abs(moves.speed - 0.3) < 0.03, f"The robot {moves}; 0.3 m/s is wanted, by the parameter of its node.")
     return f"The robot {moves}."
 
@@ -39,9 +31,8 @@ def faster(tried: Tried) -> str:
 @step("switch_off", objective=1, form=COMMANDS)
 def switch_off(tried: Tried) -> str:
     """The robot stands, because its node was told to by the service /drive."""
-    moves = motion(tried)
-    still = abs(moves.speed) < 0.02 and abs(moves.rate) < 0.02
-    expect(still, f"The robot {moves}; 0 m/s is wanted, and the node says so ten times a second once it is off.")
+    moves = motion_in_the_middle(tried)
+    expect(moves.stands, f"The robot {moves}; 0 m/s is wanted, and the node says so ten times a second once it is off.")
     return "The robot stands, and its node keeps it there."
 
 

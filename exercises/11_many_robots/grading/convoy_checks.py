@@ -55,7 +55,8 @@ def in_a_row(recording: Recording, parameters: dict[str, Any]) -> Finding:
                 "no create was ever started: an action runs only if it is in the LaunchDescription, or in the list "
                 "that a function of OpaqueFunction returns"
             )
-        return Finding(False, expected, f"no robot came into the world{': ' if said else ''}{said}", explanation=why)
+        measured = f"no robot came into the world{': ' if said else ''}{said}"
+        return Finding(False, expected, measured, explanation=why, nothing=True)
     if there != sorted(names):
         why = ""
         failed = _create_said(recording)

@@ -44,7 +44,7 @@ def name_in(topic: str) -> str:
 
 def own_topics(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if every robot's commands and odometry are bridged below its name, each way once."""
-    names, called = asked_for(recording)
+    names, called = judged(recording)
     made = bridges(recording)
     wanted = {}
     for name in names:
@@ -82,7 +82,8 @@ def own_topics(recording: Recording, parameters: dict[str, Any]) -> Finding:
             measured = f"no bridge has {topic}" + (f"; {gz_topic} is bridged as {other}" if other else "")
             return Finding(False, expected, measured, explanation=why)
         if len(here) > 1:
-            return Finding(False, expected, f"{len(here)} bridges have {topic}: every message is carried as often")
+            measured = f"{len(here)} bridges have {topic}: every message is carried as often"
+            return Finding(False, expected, measured, explanation=f"{measured}; each topic needs one bridge")
         if here[0].gz_topic != gz_topic:
             measured = f"{topic} is bridged with {here[0].gz_topic}, not with {gz_topic}"
             why = "these are two different robots"
@@ -113,9 +114,16 @@ def own_topics(recording: Recording, parameters: dict[str, Any]) -> Finding:
     return Finding(True, expected, f"{len(wanted)} topics of {len(names)} robots")
 
 
+def judged(recording: Recording) -> tuple[list[str], str]:
+    """Return the robots that were asked for and are there; all that were asked for if they are too few for a convoy."""
+    names, called = asked_for(recording)
+    there = [name for name in names if name in robots_there(recording)]
+    return (there if len(there) > 1 else names), called
+
+
 def listens_to_the_one_in_front(recording: Recording, parameters: dict[str, Any]) -> Finding:
     """Pass if each follower has the subscriptions and the publisher that its place in the row asks for."""
-    names, called = asked_for(recording)
+    names, called = judged(recording)
     expected = f"{called}: /robot2/follower hears /robot1/odom and /robot2/odom, steers /robot2/cmd_vel, and so on"
     if died := next(
         (each for each in deaths(recording) if "follower" in each.process or "python" in each.process), None

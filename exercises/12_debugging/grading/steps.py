@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import yaml
 
-from gz_course.grader.lessons.motion import motion_of
+from gz_course.grader.lessons.motion import motion_in_the_middle, motion_of
+from gz_course.grader.lessons.observer import SEEN
 from gz_course.grader.lessons.step import COMMANDS, Tried, expect, step
 
 SCAN, TWIST, CLOCK, FLOAT = (
@@ -18,7 +19,6 @@ SCAN, TWIST, CLOCK, FLOAT = (
 )
 NODE = "stopper"  # which computes the commands of this system
 BRIDGE = "ros2 run ros_gz_bridge parameter_bridge"
-GRAPH = 8.0  # [s] until the ends of all nodes are known
 TRIES = 4  # a single message may be lost
 IN_ROS, COMMAND, WHEELS = 3, 5, 7  # numbers of stations: /scan and /cmd_vel in ROS, the wheels
 
@@ -32,7 +32,7 @@ def publishers(tried: Tried, known: Callable[[dict[str, list[str]]], object]) ->
             named = {topic: sorted(each.node_name for each in found) for topic, found in ends.items()}
             return {topic: [name for name in names if "UNKNOWN" not in name] for topic, names in named.items()}
 
-        spin_until(lambda: bool(known(look())), GRAPH)
+        spin_until(lambda: bool(known(look())), SEEN)
         return look()
 
 
@@ -109,8 +109,7 @@ def three_topics(tried: Tried) -> str:
     expect(not others, f"The bridge also publishes on /cmd_vel; one way is wanted, from {NODE} to Gazebo.")
     tried.heard("/clock", CLOCK, deadline=5.0)
     tried.heard("/scan", SCAN, deadline=5.0)
-    tried.place("robot", 0.0, 0.0)
-    speed = motion_of(tried.poses("robot", 1.0)[10:]).speed
+    speed = motion_in_the_middle(tried, 1.0).speed
     expect(speed > 0.05, f"{NODE} commands 0.1 m/s, and the robot does not drive: the commands go elsewhere in Gazebo.")
     return f"Clock and scans come, commands go one way, and the robot drives at {speed:z.1f} m/s."
 

@@ -119,7 +119,7 @@ def walls(recording: Recording, parameters: dict[str, Any]) -> Finding:
         words = (
             map_faults.unclear(said, wanted)
             or map_faults.unchanged(*maps)
-            or suspect(recording, "threshold", "erased")
+            or suspect(recording, "threshold", "erased", "heading", "angle")
             or map_faults.walls_missing(said, wanted, earlier_walls(recording), suspect(recording, "forgets", "fades"))
         )
     return Finding(False, expected, measured, round(at, 3), explanation=words)

@@ -1,4 +1,4 @@
-"""`python -m grader.tools.book FOLDER` writes the book of the course: a front page and a page per chapter.
+"""`python -m grader.tools.book FOLDER` writes the book: a front page, a page per chapter, glossary and cheat sheet.
 
 Chapters are run in a copy, so the course's own folders do not change. Exit code 1 if a chapter does not run.
 """
@@ -16,10 +16,12 @@ from markupsafe import Markup, escape
 
 from gz_course.grader.errors import CourseError
 from gz_course.grader.exercise import course_root
-from gz_course.grader.tools.book.chapter import page, run
+from gz_course.grader.tools.book.chapter import page, page_beside, run
+from gz_course.grader.tools.book.cheat_sheet import CHEAT_SHEET
 from gz_course.grader.tools.book.objectives import lessons
 
 USAGE = "usage: python -m grader.tools.book FOLDER"
+PAGES = {"Glossary": Path("chapters/glossary.ipynb"), "Cheat sheet": CHEAT_SHEET}  # beside the chapters
 TRACES = ("runs", ".ipynb_checkpoints", "__pycache__")  # left behind by somebody at work, not part of the course
 
 
@@ -48,6 +50,9 @@ def write(root: Path, out: Path) -> None:
         for lesson in lessons(copy):
             print(f"running {lesson.chapter.name}", flush=True)
             (out / f"{lesson.chapter.name}.html").write_text(page(lesson.chapter, run(lesson.chapter)))
+    for path in PAGES.values():
+        if (root / path).is_file():
+            (out / path.with_suffix(".html").name).write_text(page_beside(root / path))
     (out / "index.html").write_text(front(root))
     print(f"{out / 'index.html'} is the front page")
 
@@ -57,7 +62,8 @@ def front(root: Path) -> str:
     loader = FileSystemLoader(Path(__file__).parent)
     environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
     environment.filters["code"] = lambda text: Markup(re.sub("`([^`]*)`", r"<code>\1</code>", str(escape(text))))
-    return environment.get_template("front.html").render(lessons=lessons(root))
+    beside = {name: path.with_suffix(".html").name for name, path in PAGES.items() if (root / path).is_file()}
+    return environment.get_template("front.html").render(lessons=lessons(root), beside=beside)
 
 
 if __name__ == "__main__":

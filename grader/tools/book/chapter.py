@@ -18,6 +18,22 @@ CELL_DEADLINE = 120.0  # [s] in which a cell waits or computes; waiting for a pr
 LOOK_AGAIN = 0.5  # [s] between two looks at the time while a cell runs
 # scripts of the template, which need the network; no page needs them
 SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)
+# Scripts are those of replays, whose frames have a stricter policy of their own.
+POLICY = (
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+    'script-src \'unsafe-inline\'; img-src data:; font-src data:"><meta name="referrer" content="no-referrer">'
+)
+# Colours of the template with which some readers cannot read: less than 4.5 to 1 on the background.
+STYLE = """<style>
+:root {
+  --jp-cell-prompt-not-active-font-color: #545d68; --jp-cell-inprompt-font-color: #545d68;
+  --jp-mirror-editor-comment-color: #2c6464; --jp-mirror-editor-number-color: #006b00;
+  --jp-mirror-editor-operator-color: #8a12d1; --jp-cell-prompt-not-active-opacity: 1; --jp-cell-prompt-opacity: 1;
+}
+.highlight .ow { color: #8a12d1; }
+.jp-RenderedHTMLCommon a:any-link { text-decoration: underline; }
+</style>"""
+GLOSSARY = re.compile(r'href="\.\./glossary\.ipynb')  # where links of the chapters lead, seen from their folders
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 OBJECTIVES = re.compile(r"^\*\*Objectives\.\*\*.*?\n\n(?P<list>(?:- .*\n(?:  .*\n)*)+)", re.MULTILINE)
 
@@ -107,4 +123,15 @@ def page(chapter: Chapter, notebook: Any) -> str:
 
     about = {"metadata": {"name": chapter.title, "path": str(chapter.notebook.parent)}}  # where its pictures are
     text, _ = HTMLExporter(embed_images=True).from_notebook_node(notebook, about)
-    return SCRIPT.sub("", text)
+    text = GLOSSARY.sub('href="glossary.html', SCRIPT.sub("", text))
+    return text.replace("<head>", f"<head>{POLICY}", 1).replace("</head>", f"{STYLE}</head>", 1)
+
+
+def page_beside(path: Path) -> str:
+    """Return a page that belongs to no chapter: a page as it is, or a notebook, which is not run, as a page."""
+    import nbformat
+
+    if path.suffix == ".html":
+        return path.read_text()
+    notebook = nbformat.read(path, as_version=4)
+    return page(Chapter(path.stem, path, notebook.cells[0].source.partition("\n")[0].lstrip("# "), ()), notebook)

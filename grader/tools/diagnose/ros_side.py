@@ -24,6 +24,7 @@ from gz_course.sim.ros.ros2.errors import CommandError
 from gz_course.sim.ros.ros2.graph import FIRST_CONTACT, UNKNOWN_NODE, Graph, destroy_ended
 from gz_course.sim.ros.ros2.interface import message_class
 
+INTERRUPTED = 130  # exit code
 ANSWER_WITHIN = 1.0  # [s] for all nodes to return their parameters
 KEEP = 5  # messages kept of a topic
 MOST_TOPICS = 200
@@ -52,6 +53,9 @@ def observe(seconds: float) -> RosSide:
             _ask(graph, side)
             _Listener(graph, side).listen(seconds)
             return side
+    except KeyboardInterrupt:
+        destroy_ended(INTERRUPTED)  # even if DDS blocks
+        raise
     finally:
         destroy_ended()
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from gz_course.grader.lessons import cell
 from gz_course.grader.lessons.attempt import attempt
 from gz_course.grader.lessons.cell import MOST_OUTPUT, UNTOUCHED, untouched
 from gz_course.grader.lessons.step import COMMANDS, PYTHON, Step, Tried, expect
@@ -114,6 +115,19 @@ def test_a_function_without_end_is_ended(room):
 def test_a_command_without_end_is_ended_with_what_it_started(room):
     answer, _ = tried(room, "sleep 1000 & sleep 1000", form=COMMANDS, limit=6.0)
     assert answer.seen.startswith("The command had not ended after 2 s")
+
+
+def test_a_command_may_begin_as_in_other_cells_of_a_notebook(room):
+    answer, printed = tried(room, "!echo one\n  !echo two\necho three!", form=COMMANDS)
+    assert answer.done and printed.split() == ["one", "two", "three!"]
+
+
+def test_a_command_on_a_crowded_machine_gets_its_time_again_and_no_other_sentence(room, monkeypatch):
+    crowded = iter([True, True, True, False])
+    monkeypatch.setattr(cell, "crowded", lambda: next(crowded))
+    answer, _ = tried(room, "sleep 1000", form=COMMANDS, limit=0.3)
+    assert answer.seen.startswith("The command had not ended after 0.1 s")
+    assert next(crowded, None) is None
 
 
 def test_a_megabyte_is_cut(room):

@@ -6,8 +6,6 @@ import signal
 import subprocess
 import sys
 import textwrap
-import threading
-import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -17,8 +15,10 @@ import pytest
 from gz_course.grader.errors import UsageError
 from gz_course.grader.tools import live_frame, playground
 from gz_course.grader.tools.playground import Playground
+from gz_course.tests.eventually import within
 
 DEADLINE = 120.0
+eventually = within(DEADLINE)
 FENCE = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "GZ_PARTITION", "ROS_LOG_DIR")
 
 
@@ -26,14 +26,6 @@ FENCE = ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "GZ_PARTITION", "ROS_
 def room():
     with Playground() as opened:
         yield opened
-
-
-def eventually(condition, what):
-    pause, end = threading.Event(), time.monotonic() + DEADLINE
-    while not (found := condition()):
-        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
-        pause.wait(0.01)
-    return found
 
 
 def gone(pid):
@@ -273,8 +265,22 @@ def test_a_view_that_is_missing_or_broken_is_one_sentence(room, monkeypatch):
     )
     html = room.show()._repr_mimebundle_()["text/html"]
     assert 'src="http://127.0.0.1:1/&lt;token&gt;/"' in html and "live" in html
+    panels = []
+
+    class Panel:
+        def __init__(self, title, content):
+            panels.append(content)
+
+        def close(self):
+            panels.clear()
+
+    monkeypatch.setattr(live_frame, "in_jupyterlab", lambda: True)
+    monkeypatch.setattr(live_frame, "SidePanel", Panel)
+    html = room.show()._repr_mimebundle_()["text/html"]
+    assert "<iframe" not in html and "beside the notebook" in html and "&lt;token&gt;" in html
+    assert len(panels) == 1 and '<iframe src="http://127.0.0.1:1/&lt;token&gt;/"' in panels[0]
     View.address = ""
-    assert "there is no browser" in repr(room.show()) and View.closed
+    assert "there is no browser" in repr(room.show()) and View.closed and not panels, "the panel is closed, too"
 
 
 def test_what_ros_says_is_shown_where_the_program_says_so(room, tmp_path, monkeypatch):

@@ -34,4 +34,5 @@ def examine(probes: Probes) -> Verdict:
             f"a recording cannot be written and read: {error}",
             "install the tested version again: `pip install -c constraints.txt --force-reinstall rerun-sdk`",
         )
-    return fine(f"{seen}; the viewer sends no usage data when `course show` opens it")
+    kept = "`course show` keeps the viewer from sending usage data, its page in a browser from asking another machine"
+    return fine(f"{seen}; {kept}")

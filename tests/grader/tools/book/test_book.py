@@ -8,10 +8,12 @@ import sys
 import nbformat
 import pytest
 
+from gz_course.grader.errors import ManifestError
 from gz_course.grader.tools.book import chapter as book_chapter
 from gz_course.grader.tools.book.chapter import ChapterError, chapters, run
 from gz_course.grader.tools.book.objectives import lessons
 from gz_course.tests import warm_process
+from gz_course.tests.import_arrows import ROOT
 
 NAME = "03_teleop"
 HEAD = """\
@@ -59,6 +61,39 @@ def test_the_head_of_a_notebook_is_read(course):
     (chapter,) = chapters(course("1 + 1"))
     assert (chapter.name, chapter.title) == (NAME, "3. Driving <fast>")
     assert chapter.objectives == ("say `Twist` in two lines", "stop")
+
+
+def test_each_objective_is_practised_asked_and_graded(root):
+    """The table on the front page of the book has no hole; few objectives are graded by their cell alone."""
+    holes, alone = [], []
+    for lesson in lessons(root):
+        for number, each in enumerate(lesson.objectives, start=1):
+            name = f"{lesson.chapter.name} {number}"
+            holes += [f"{name} is not {what}" for what in ("practised", "asked", "graded") if not getattr(each, what)]
+            alone += [name] if all(check.startswith("cell ") for check in each.graded) else []
+    assert holes == []
+    assert len(alone) <= 3, alone
+
+
+def test_a_hole_in_the_table_of_objectives_is_seen(course):
+    folder = course("1 + 1")
+    lesson = folder / "exercises" / NAME / "grading" / "lesson.toml"
+    lesson.write_text(lesson.read_text().replace('3 = ["stops"]', '3 = ["cell:stop"]').partition("\n4 = ")[0])
+    (found,) = lessons(folder)
+    assert [each.practised for each in found.objectives] == [("turn_right",), ("circle",)]
+    lesson.write_text(lesson.read_text().replace('1 = ["drives_forward"]', "").replace("[[review]]", "[[again]]"))
+    (found,) = lessons(folder)
+    assert found.objectives[0].graded == () and "review 1" not in found.objectives[1].asked
+
+
+@pytest.mark.parametrize("wrong", ["drives_fast", "cell:circle", "04_lidar_listener:stops"])
+def test_a_check_that_does_not_exist_grades_no_objective(course, wrong):
+    folder = course("1 + 1")
+    lesson = folder / "exercises" / NAME / "grading" / "lesson.toml"
+    lesson.write_text(lesson.read_text().replace('1 = ["drives_forward"]', f'1 = ["{wrong}"]'))
+    shutil.copytree(ROOT / "exercises" / "04_lidar_listener", folder / "exercises" / "04_lidar_listener")
+    with pytest.raises(ManifestError, match=f"names '{wrong}', which is no check"):
+        lessons(folder)
 
 
 def test_every_check_is_mapped_to_the_variants_that_must_lose_it(course):

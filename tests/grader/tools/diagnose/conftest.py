@@ -4,7 +4,6 @@ import contextlib
 import os
 import sys
 import threading
-import time
 import uuid
 from pathlib import Path
 
@@ -12,9 +11,11 @@ import pytest
 
 from gz_course.grader.tools.playground import Playground
 from gz_course.tests import warm_process
+from gz_course.tests.eventually import within
 from gz_course.tests.sim.spinning import spinning
 
 DEADLINE = 120.0
+eventually = within(DEADLINE)
 ROOT = Path(__file__).parents[4]
 COURSE = [sys.executable, "-c", "from gz_course.grader.course import main; main()"]
 
@@ -36,14 +37,6 @@ SYSTEMS = {
     "sensors": "Sensors",
     "imu": "Imu",
 }
-
-
-def eventually(condition, what):
-    pause, end = threading.Event(), time.monotonic() + DEADLINE
-    while not (found := condition()):
-        assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
-        pause.wait(0.01)
-    return found
 
 
 class Broken:
