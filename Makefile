@@ -1,7 +1,8 @@
 # A fresh clone needs only Linux (x86-64), Python >= 3.11, pip and make: `make demo` or `make test` sets everything up.
 PYTHON ?= python3
 BIN := .venv/bin
-PIP := $(BIN)/pip --disable-pip-version-check --quiet install --constraint constraints.txt
+# One line says how far pip is.
+PIP := $(BIN)/python -I grader/tools/pip_progress.py --constraint constraints.txt
 
 # Tests side by side: domains, partitions and folders are reserved by each worker.
 # `exec`, so that whatever ends make ends the test run: the shell between them would not pass a signal on.
@@ -19,7 +20,7 @@ FILTER := ! git rev-parse --git-dir >/dev/null 2>&1 || \
 # Where a student works: chapters and exercises, without solutions and grader. Authors: `make chapters MINE=.`
 MINE ?= my_course
 
-.PHONY: setup chapters my-course update demo test verify prove-exercises prove-long attacks pythons prove-determinism soak bench book fuzz worlds lint clean
+.PHONY: setup chapters my-course update demo test verify prove-exercises prove-long attacks pythons prove-determinism soak bench fidelity explained book fuzz worlds lint clean
 setup: .venv/with-course
 
 .venv/with-course: pyproject.toml constraints.txt
@@ -84,6 +85,14 @@ pythons: .venv/with-tools
 GRADINGS ?= 200
 prove-determinism: .venv/with-tools
 	exec $(BIN)/python -m gz_course.tests.determinism $(GRADINGS)
+
+# Scenes here, in DART and in Gazebo's own physics (WORDS choose some; FIDELITY_OPTIONS=--record keeps what those gave).
+fidelity: .venv/with-tools
+	exec $(BIN)/python -m gz_course.tests.conformance.physics $(FIDELITY_OPTIONS) $(WORDS)
+
+# What `course explain` finds for each rejected variant, beside what is known of it: make explained WORDS=03_teleop
+explained: .venv/with-tools
+	exec $(BIN)/python -m gz_course.tests.explained $(WORDS)
 
 # Long runs: MINUTES of simulated time of a world with its bridge and three nodes, and a class of STUDENTS.
 MINUTES ?= 60

@@ -23,16 +23,18 @@ from gz_course.grader.registry import module_names
 from gz_course.sim.did_you_mean import did_you_mean
 from gz_course.sim.error_text import named
 from gz_course.sim.foreign_variables import set_aside
-from gz_course.sim.terminal_text import printable
+from gz_course.sim.terminal_text import guard
 
 INSTRUCTORS = "For instructors"
+SECTIONS = ("Commands", "For a running system", INSTRUCTORS)
 
 
 class Commands(TyperGroup):
     """The sub-commands, a file of `commands/` each: `course grade-all` runs the function `command` of `grade_all.py`.
 
     A file is imported when its command is called; the list of commands reads their docstrings without importing them.
-    A module's docstring with the line `For instructors.` puts its command into the second half of the list.
+    A line of a module's docstring that is the title of one of `SECTIONS`, such as `For instructors.`, puts its command
+    there; without one it stands in the first.
     """
 
     def list_commands(self, _: Any) -> list[str]:
@@ -47,21 +49,22 @@ class Commands(TyperGroup):
 
     def format_commands(self, context: Any, formatter: Any) -> None:
         folder = Path(commands.__path__[0])
-        told: dict[str, list[tuple[str, str]]] = {"Commands": [], INSTRUCTORS: []}
+        told: dict[str, list[tuple[str, str]]] = {title: [] for title in SECTIONS}
         for name in self.list_commands(context):
             module = ast.parse((folder / f"{name.replace('-', '_')}.py").read_bytes())
-            told[INSTRUCTORS if _is_for_instructors(module) else "Commands"].append((name, _summary(module)))
+            told[section(module)].append((name, summary(module)))
         for title, lines in told.items():
             with formatter.section(title):
                 formatter.write_dl(lines)
 
 
-def _is_for_instructors(module: ast.Module) -> bool:
-    """Tell whether the docstring of a file of `commands/` says so in a line of its own."""
-    return f"{INSTRUCTORS}." in (ast.get_docstring(module) or "").splitlines()
+def section(module: ast.Module) -> str:
+    """Return the section that a line of the docstring of a file of `commands/` names, or the first."""
+    lines = (ast.get_docstring(module) or "").splitlines()
+    return next((title for title in SECTIONS if f"{title}." in lines), SECTIONS[0])
 
 
-def _summary(module: ast.Module) -> str:
+def summary(module: ast.Module) -> str:
     """Return the first paragraph of the docstring of the function `command` in a file."""
     for node in module.body:
         if isinstance(node, ast.FunctionDef) and node.name == "command":
@@ -74,6 +77,7 @@ def main() -> None:
     debug = "--debug" in sys.argv[1:2]
     if debug:
         del sys.argv[1]
+    guard()
     end_on(signal.SIGTERM, signal.SIGHUP)
     if sys.argv[1:2] != ["doctor"]:  # which reports on them
         set_aside("course")
@@ -94,7 +98,7 @@ def main() -> None:
 
 
 def _say(sentence: str) -> None:
-    text = f"course: {printable(sentence)}".encode(sys.stderr.encoding or "utf-8", "replace")
+    text = f"course: {sentence}".encode(sys.stderr.encoding or "utf-8", "replace")
     print(text.decode(sys.stderr.encoding or "utf-8"), file=sys.stderr)
 
 

@@ -10,13 +10,18 @@ from typing import Any
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise, exercise_names, find_exercise
-from gz_course.grader.exercise.trial import Trial, numbered
+from gz_course.grader.exercise.recorded_trial import recorded_trial
+from gz_course.grader.exercise.trial import Trial, numbered, with_parameters
+from gz_course.grader.exercise.visibility import NEVER
 from gz_course.grader.printable import shown
 from gz_course.grader.process.output_lock import sole_writer
 from gz_course.grader.record.reading import Recording
+from gz_course.grader.report.ranking import places
 from gz_course.grader.report.report import HostFacts, Report, TrialReport
+from gz_course.grader.report.seen import rules_of
 from gz_course.grader.run.limits import limits_of
 from gz_course.grader.run.supervision import Heartbeat, Supervised
+from gz_course.grader.score.check_fault import CheckFault, left_behind
 from gz_course.grader.score.combined import combined
 from gz_course.grader.score.score import Score, score
 from gz_course.grader.submission import Submission
@@ -34,6 +39,7 @@ class TrialResult:
     path: Path
     score: Score
     host: HostFacts | None = None
+    weight: float | None = None  # of the trial
 
     @property
     def run(self) -> dict[str, Any]:
@@ -50,19 +56,21 @@ def grade(
     pace: str = "lockstep",
     trials: tuple[Trial, ...] | None = None,
     sandbox: str = "auto",
+    explained: bool = True,
     started: float | None = None,
     meanwhile: Callable[[], object] = lambda: None,
 ) -> Report:
     """Grade the submission at a path (None: the student's own copy) and leave its recordings in the folder `out`.
 
     `trials` are those of the exercise if None; `seed` is added to the seed of each. `sandbox` is a
-    level of `grader.run.sandbox`. `started` is the `time.monotonic()` [s] at which the command began, for the report;
-    `meanwhile` is called once while a run goes on in another process.
+    level of `grader.run.sandbox`. Without `explained` the files are not read for likely mistakes. `started` is the
+    `time.monotonic()` [s] at which the command began, for the report; `meanwhile` is called once while a run goes on in
+    another process.
     Raises UsageError for a submission that cannot be read, and if another grader writes into `out` at this moment; a
     submission that is wrong is graded, not raised.
     """
     started = time.monotonic() if started is None else started
-    submission = take_in(exercise, submission_path)
+    submission = take_in(exercise, submission_path, explained=explained)
     asked = numbered(trials or exercise.trials, seed)
     with sole_writer(out, exercise.name):
         runs = [_TrialRun(exercise, submission, trial, pace, out, sandbox) for trial in asked]
@@ -75,7 +83,7 @@ def grade(
         time.monotonic() - started,
         limits_of(exercise.duration, exercise.kind == "launch"),
     )
-    return make_report(results, exercise, shown(str(submission.path), LONGEST_PATH), host)
+    return make_report(results, exercise, shown(str(submission.path), LONGEST_PATH), host, notes=submission.notes)
 
 
 @dataclass(frozen=True)
@@ -142,12 +150,20 @@ def run_trial(
 
     from gz_course.grader.report.verdicts import write_verdicts  # not before the submission starts up
 
+    verdict: Score | CheckFault
     with result.recorder as recorder:
         recorder.flush()
         recording = Recording(recorder.part)
-        verdict = score(recording, exercise)
-        write_verdicts(recorder, verdict, exercise.max_score, in_trial.duration)
-    return TrialResult(recording, path, verdict, HostFacts(result.sandbox, result.pace, result.run_wall_seconds, 0.0))
+        try:
+            verdict = score(recording, in_trial)
+        except CheckFault as fault:  # the run is what the author needs to find it
+            verdict = fault
+        else:
+            write_verdicts(recorder, verdict, exercise.max_score, in_trial.duration)
+    if isinstance(verdict, CheckFault):
+        raise left_behind(verdict, path)
+    host = HostFacts(result.sandbox, result.pace, result.run_wall_seconds, 0.0)
+    return TrialResult(recording, path, verdict, host, trial.weight)
 
 
 def recording_path(exercise: Exercise, trial: Trial, out: Path) -> Path:
@@ -169,7 +185,7 @@ def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Repor
             raise UsageError(f"{path} is not a recording of a graded run")
     _check_trials([path for path, _ in recordings], runs)
     exercise = find_exercise(runs[0]["exercise"], root)
-    results = [TrialResult(recording, path, score(recording, exercise)) for path, recording in recordings]
+    results = [_scored(recording, exercise, path) for path, recording in recordings]
     results.sort(key=lambda each: each.run.get("trial_number", 1))
     notes = []
     if any(run.get("manifest_sha256", exercise.manifest_sha256) != exercise.manifest_sha256 for run in runs):
@@ -180,6 +196,15 @@ def grade_again(paths: Path | Sequence[Path], root: Path | None = None) -> Repor
             "folder of all recordings for the score that counts."
         )
     return make_report(results, exercise, runs[0]["submission"], notes=notes)
+
+
+def _scored(recording: Recording, exercise: Exercise, path: Path) -> TrialResult:
+    trial = recorded_trial(exercise, recording.properties("run"))
+    try:
+        found = score(recording, replace(exercise, checks=with_parameters(exercise.checks, trial.checks)))
+        return TrialResult(recording, path, found, weight=trial.weight)
+    except CheckFault as fault:
+        raise left_behind(fault, path) from fault
 
 
 def recordings_in(path: Path) -> list[Path]:
@@ -234,7 +259,9 @@ def make_report(
     """Put the scores of all trials, and what their recordings say about the runs, together."""
     if any(each.recording.facts().get("lines_dropped") for each in results):
         notes = [*notes, "The log was too long to be recorded as a whole; it was cut, and that costs no points."]
-    score = combined([(each.run.get("trial", "public"), each.score) for each in results])
+    visible = rules_of(exercise).trials
+    weights = [each.weight for each in results]
+    score = combined([(each.run.get("trial", "public"), each.score) for each in results], weights)
     return Report(
         exercise=exercise.name,
         title=exercise.title,
@@ -254,9 +281,11 @@ def make_report(
                 each.path,
                 each.score.truth_sha256,
                 each.recording,
+                visible.get(each.run.get("trial", "public"), NEVER),
             )
             for each in results
         ),
+        leaderboard=places(exercise.leaderboard, [each.score for each in results]),
         notes=(*notes, *score.faults),
         hints_shown=exercise.hints_shown,
         after=_after(exercise),

@@ -79,14 +79,16 @@ USES = {
     "sim/ros/launch_xml": ("sim/ros/launch",),
     "sim/ros/launch_yaml": ("sim/ros/launch",),
     "sim/ros/message_filters": (),
+    "sim/ros/nav2_common": ("sim/ros/launch",),
     "sim/ros/prefix": ("sim/ros/launch", "sim/ros/launch_ros", "sim/ros/rosidl"),
     "sim/ros/ros2": (
-        *("sim/ros/prefix", "sim/ros/ros_program", "sim/ros/rosbag2"),
+        *("sim/ros/prefix", "sim/ros/ros_program", "sim/ros/rosbag2", "sim/ros/rosidl_runtime_py"),
         *("sim/ros/launch", "sim/ros/launch_ros", "sim/ros/launch_testing", "sim/ros/launch_testing_ros"),
     ),
     "sim/ros/rosbag2": ("sim/ros/rosidl",),
     "sim/ros/rosbag2_py": ("sim/ros/rosbag2",),
     "sim/ros/rosidl": (),
+    "sim/ros/rosidl_runtime_py": (),
     "sim/ros/sensor_msgs_py": (),
     "sim/ros/tf2_geometry_msgs": ("sim/ros/tf2_ros", "sim/ros/tf2_py"),
     "sim/ros/tf2_py": (),
@@ -99,7 +101,7 @@ USES = {
 # Packages that work without rclpy.
 WITHOUT_ROS = {
     *("ament_cmake", "cv_bridge", "laser_geometry", "launch", "launch_pytest", "launch_testing", "launch_xml"),
-    *("launch_yaml", "prefix", "rosidl", "sensor_msgs_py", "tf_transformations"),
+    *("launch_yaml", "nav2_common", "prefix", "rosidl", "sensor_msgs_py", "tf_transformations"),
 }
 # What grades an exercise sees the recording, and nothing of another exercise.
 GRADERS = sorted({path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("exercises/*/grading/*.py")})
@@ -113,7 +115,7 @@ ALLOWED = {room: (room, *others) for room, others in USES.items()} | {room: (roo
 # What every room may import.
 FOR_ALL = (
     *("sim/child_end", "sim/did_you_mean", "sim/error_text", "sim/foreign_variables", "sim/jupyter_proxy"),
-    *("sim/orphan_watch", "sim/terminal_text"),
+    *("sim/machine_clock", "sim/orphan_watch", "sim/page_policy", "sim/postponed_signal", "sim/terminal_text"),
 )
 # The actions of launch files that a package brings.
 ACTIONS = {"sim/bridge/ros_gz_bridge/actions": ("sim/ros/launch", "sim/ros/launch_ros")}

@@ -1,4 +1,7 @@
-"""`course diagnose`: find configuration errors in the live ROS and Gazebo graphs and explain them."""
+"""`course diagnose`: find configuration errors in the live ROS and Gazebo graphs and explain them.
+
+For a running system.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 
+from gz_course.grader.console import GuardedConsole
 from gz_course.grader.printable import shown
 
 if TYPE_CHECKING:
@@ -33,7 +37,7 @@ def command(
     if json:
         sys.stdout.write(diagnosis.as_json())
     else:
-        print_diagnosis(diagnosis, Console())
+        print_diagnosis(diagnosis, GuardedConsole())
     raise typer.Exit(1 if diagnosis.wrong else 0)
 
 

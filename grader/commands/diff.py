@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.text import Text
 
+from gz_course.grader.console import GuardedConsole
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.exercise.solution_diff import solution_diff
 from gz_course.grader.printable import shown
@@ -25,7 +25,7 @@ def command(
     if not lines:
         print(f"The starter of {chosen.name} is its solution: nothing changes.")
         return
-    console = Console(soft_wrap=True, highlight=False)
+    console = GuardedConsole(soft_wrap=True, highlight=False)
     if not console.is_terminal:
         print("\n".join(lines))
         return

@@ -7,9 +7,9 @@ from json import dumps
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.markup import escape
 
+from gz_course.grader.console import GuardedConsole
 from gz_course.grader.errors import UsageError
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def print_json(findings: list[Finding], works: bool) -> None:
 
 def print_findings(findings: list[Finding]) -> None:
     """Print a line for each finding, with the remedy below if there is one, and a summary at the end."""
-    console = Console(highlight=False, soft_wrap=True)
+    console = GuardedConsole(highlight=False, soft_wrap=True)
     colours = {"ok": "green", "warning": "yellow", "failed": "red"}
     for finding in findings:
         verdict = finding.verdict

@@ -35,6 +35,9 @@ def command(
     submissions: Annotated[
         Path | None, typer.Option(help="What was graded: the folder or zip, for the times of the submissions.")
     ] = None,
+    map_file: Annotated[
+        Path | None, typer.Option("--map", metavar="FILE", help="As for course grade-all, if it was given there.")
+    ] = None,
 ) -> None:
     """Write the grades of a class as Moodle or Canvas import them. Exit code 1: some students are not in the file."""
     from gz_course.grader.learning_platforms.export import export, write
@@ -44,7 +47,7 @@ def command(
     given = {path.resolve() for path in (roster, grades / "gradebook.csv")}
     if given & {out.resolve(), target.resolve()}:
         raise UsageError(f"--out {out} would overwrite what is read; give another file")
-    told = export(chosen, grades, roster, column, points, deadline, submissions)
+    told = export(chosen, grades, roster, column, points, deadline, submissions, map_file)
     write(out, told.grades.text)
     write(target, told.overview)
     print(f"{out}: {len(told.grades.written)} of {told.students} students, for {told.system}. {told.grades.advice}")

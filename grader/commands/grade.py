@@ -52,8 +52,22 @@ def command(
     page: Annotated[
         bool, typer.Option("--page/--no-page", help="Write the HTML page beside the recording, unless --html names it.")
     ] = True,
+    explained: Annotated[
+        bool, typer.Option("--explained/--points-only", hidden=True, help="Read the files for likely mistakes.")
+    ] = True,
     details: Annotated[
         bool, typer.Option("--details", help="Print what each check expected and measured; the page has it, too.")
+    ] = False,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Also try which line decides, as `course explain` does.")
+    ] = False,
+    no_helper: Annotated[
+        bool,
+        typer.Option(
+            "--no-helper",
+            help="In a terminal, a process with all imports done is kept for ten minutes, so that the next grading "
+            "begins at once. With this option none is used or kept.",
+        ),
     ] = False,
     *,
     reports: dict[str, Path],
@@ -101,9 +115,16 @@ def command(
         pace=pace,
         trials=asked,
         sandbox=level,
+        explained=explained,
         started=STARTED,
         meanwhile=meanwhile,
     )
+
+    if explain and not report.full_marks and report.measured and not report.untouched:
+        from gz_course.grader.explain.progress import explained as searched
+        from gz_course.grader.explain.tried import with_trial
+
+        report = with_trial(report, searched(chosen, submission, sandbox=level))
 
     from gz_course.grader.report.terminal import print_report
 

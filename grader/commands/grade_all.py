@@ -6,6 +6,7 @@ For instructors.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,6 +15,7 @@ import typer
 from rich.console import Console
 from rich.markup import escape
 
+from gz_course.grader.console import GuardedConsole
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.printable import shown
@@ -21,6 +23,7 @@ from gz_course.grader.report.format import with_report_flags
 from gz_course.sim.did_you_mean import did_you_mean
 
 if TYPE_CHECKING:
+    from gz_course.grader.learning_platforms.submission_times import Submitted
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import Found
 
@@ -50,16 +53,28 @@ def command(
     keep: Annotated[
         str, typer.Option(help="Whose recordings stay: all, failing (those without full marks) or none.")
     ] = "all",
+    explain: Annotated[
+        bool,
+        typer.Option("--explain", help="Then search what would help each, as course explain does, and group them."),
+    ] = False,
+    map_file: Annotated[
+        Path | None,
+        typer.Option("--map", metavar="FILE", help="Whose a GitHub login is: a CSV file with login, student."),
+    ] = None,
     plan: Annotated[bool, typer.Option("--plan", help="Print what it will take, and grade nothing.")] = False,
     *,
     reports: dict[str, bool],
 ) -> None:
     """Grade a class. Exit code 0: all are graded, 2: usage, 3: some could not be, which is not the students' fault."""
+    from gz_course.grader.learning_platforms.login_map import read_login_map
+    from gz_course.grader.learning_platforms.submission_times import times_in
     from gz_course.grader.process.command_line import blot_out
     from gz_course.grader.run.sandbox import AUTO, OFFICIAL
+    from gz_course.grader.whole_class.attempts import UNGRADED
     from gz_course.grader.whole_class.class_run import ClassRun
     from gz_course.grader.whole_class.found import find_submissions
     from gz_course.grader.whole_class.kept import KEEP
+    from gz_course.grader.whole_class.platforms import GITHUB
 
     blot_out()
     if keep not in KEEP:
@@ -71,17 +86,23 @@ def command(
         demand = OFFICIAL
     chosen = find_exercise(exercise)
     _check_places(submissions, out)
-    console = Console(stderr=True)
+    people = read_login_map(map_file) if map_file is not None else None
+    console = GuardedConsole(stderr=True)
     run = ClassRun(chosen, out, seed, trials, tuple(reports), sandbox, demand, keep)
     with ExitStack() as stack:
-        found, left_out = find_submissions(submissions, chosen, stack)
+        found, left_out = find_submissions(submissions, chosen, stack, people)
+        run.submitted = _said_by_others(times_in(submissions, stack))
         if left_out:
             console.print(f"left out, because they are no submissions: {', '.join(left_out)}", markup=False)
+        if people and (unknown := [each.entry for each in found if each.platform != GITHUB]):
+            console.print(f"not in the map: {shown(', '.join(unknown))}", markup=False, highlight=False)
         if plan:
-            _print_plan(run, found, jobs, dask, Console())
+            _print_plan(run, found, jobs, dask, GuardedConsole())
             raise typer.Exit(0)
         results = _graded(run, found, jobs, dask, console)
-    failed = [result for result in results if result["outcome"] == "infra"]
+        if explain:
+            _explain(run, found, results, console)
+    failed = [result for result in results if result["outcome"] == "infra" or result.get(UNGRADED)]
     _print_summary(results, failed, chosen.max_score, out)
     raise typer.Exit(3 if failed else 0)
 
@@ -140,11 +161,39 @@ def _graded(
         raise
 
 
+def _said_by_others(when: Callable[[Found], Submitted | None]) -> Callable[[Found], str | None]:
+    """Return what tells the ISO time of a submission; the time of a file is that of its last copy, and says nothing."""
+
+    def told(found: Found) -> str | None:
+        submitted = when(found)
+        return submitted.time.isoformat() if submitted is not None and submitted.said_by != "file" else None
+
+    return told
+
+
+def _explain(run: ClassRun, found: list[Found], results: list[dict[str, Any]], console: Console) -> None:
+    """Search what would help each student, on this machine, and group them on the page."""
+    from gz_course.grader.whole_class.explained import explain_class
+    from gz_course.grader.whole_class.index import write_index
+
+    def told(student: str, sentence: str) -> None:
+        console.print(f"{shown(student, 40)}: {shown(sentence)}", markup=False, highlight=False, soft_wrap=True)
+
+    try:
+        explain_class(run.exercise, run.out, results, found, run.trials, run.level_and_jobs(None)[0], told)
+    except KeyboardInterrupt:
+        console.print("stopped: what was found is kept; the same command goes on from there")
+        raise
+    finally:
+        write_index(run.out, run.exercise, results, run.reports)
+
+
 def _line(result: dict[str, Any], most: float) -> str:
     points = "not graded" if result["score"] is None else f"{result['score']:g}/{most:g}"
     outcome = "" if result["outcome"] == "graded" else f"  ({result['outcome']})"
     why = f"  {result['diagnosis']}" if result["outcome"] in ("infra", "protocol") else ""
-    return f"{result['student']}  {points}{outcome}{why}"
+    notes = "".join(f"  {each}" for each in result.get("notes", ()))
+    return f"{result['student']}  {points}{outcome}{why}{notes}"
 
 
 def _cut(student: str) -> str:
@@ -158,7 +207,7 @@ def _print_summary(results: list[dict[str, Any]], failed: list[dict[str, Any]], 
     from gz_course.grader.whole_class.index import INDEX
     from gz_course.grader.whole_class.kept import readable_size, recordings_on_disk
 
-    console = Console()
+    console = GuardedConsole()
     scores = sorted(result["score"] for result in results if result["score"] is not None)
     outcomes = Counter(result["outcome"] for result in results)
     counted = ", ".join(f"{count} {name}" for name, count in sorted(outcomes.items()))

@@ -1,4 +1,7 @@
-"""`course graph`: nodes, topics, bridges and Gazebo's side as one picture."""
+"""`course graph`: nodes, topics, bridges and Gazebo's side as one picture.
+
+For a running system.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +13,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from gz_course.grader.errors import UsageError
+from gz_course.grader.console import GuardedConsole, print_wrong
+from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise import CheckSpec, Exercise, course_root, exercise_names, find_exercise
 from gz_course.grader.lessons.kept import Kept
 from gz_course.grader.lessons.lesson import number_of_steps
@@ -34,7 +38,7 @@ def command(
     exercises = [find_exercise(name, root) for name in names]
     best = best_scores(runs or runs_folder(), {each.name: each.max_score for each in exercises})
     told = {each.name: f"{best.scores[each.name]:g}" if each.name in best.scores else "-" for each in exercises}
-    console = Console()
+    console = GuardedConsole()
     if exercise is not None:
         print_rubric(exercises[0], console, told[exercises[0].name])
     else:
@@ -44,8 +48,33 @@ def command(
             table.add_row(each.name, f"{each.max_score:g}", told[each.name], _steps(each, root), each.file, each.title)
         console.print(table)
         console.print(f"\nNext: {begin}" if begin else "\nEvery exercise has full marks.", highlight=False)
+    if (root / "solutions").is_dir():  # a students' copy has no manifests to repair
+        _refuse(_found_elsewhere(root, names))
     for name in sorted(best.stale - best.scores.keys()):
         console.print(f"\n{name} had other points when it was graded; grade it again.", highlight=False)
+
+
+def _found_elsewhere(root: Path, names: list[str]) -> list[str]:
+    """Return the mistakes in manifests, found by a process of its own: it loads what this command does without."""
+    command = [sys.executable, "-P", "-m", "gz_course.grader.verify.manifest_faults", str(root), *names]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if done.returncode:
+        return [f"the manifests cannot be examined: {(done.stderr.splitlines() or ['no reason'])[-1]}"]
+    found: list[str] = json.loads(done.stdout)
+    return found
+
+
+def refuse_mistakes(exercises: list[Exercise]) -> None:
+    """Print the mistakes in manifests, if there are any, and exit."""
+    from gz_course.grader.verify.manifest_faults import manifest_faults
+
+    _refuse([fault for each in exercises for fault in manifest_faults(each)])
+
+
+def _refuse(faults: list[str]) -> None:
+    if faults:
+        print_wrong(faults)
+        raise typer.Exit(ManifestError.exit_code)
 
 
 def _steps(exercise: Exercise, root: Path) -> str:

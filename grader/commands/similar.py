@@ -13,7 +13,6 @@ import typer
 
 from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import find_exercise
-from gz_course.sim.terminal_text import printable
 
 
 def command(
@@ -42,7 +41,7 @@ def command(
     similar = find_similar([each.text for each in texts], given_code(chosen), threshold)
     write_report(out, f"{chosen.name}: {chosen.title}", texts, similar, threshold)
     for student in unread:
-        typer.echo(f"not compared, because it cannot be read: {printable(str(student))}", err=True)
+        typer.echo(f"not compared, because it cannot be read: {student}", err=True)
     equal = sum(len(members) for members in similar.groups)
     typer.echo(
         f"{len(texts)} submissions compared: {equal} are equal to another but for names, "

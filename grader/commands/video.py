@@ -11,6 +11,8 @@ from typing import Annotated
 
 import typer
 
+from gz_course.sim.terminal_text import unguarded
+
 
 def command(
     recording: Annotated[Path, typer.Argument(help="The .rrd file a grading wrote.")],
@@ -27,7 +29,7 @@ def command(
 
     def progress(share: float) -> None:
         if sys.stderr.isatty():
-            print(f"\r{share:4.0%}", end="\n" if share == 1.0 else "", file=sys.stderr, flush=True)
+            print(f"\r{share:4.0%}", end="\n" if share == 1.0 else "", file=unguarded(sys.stderr), flush=True)
 
     count = film(Recording(recording), out, size_of(size), fps, start, end, progress)
     print(f"written: {out} ({count} pictures)")

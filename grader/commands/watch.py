@@ -1,4 +1,7 @@
-"""`course watch [TOPIC...]`: what ROS says, live, in the Rerun viewer."""
+"""`course watch [TOPIC...]`: what ROS says, live, in the Rerun viewer.
+
+For a running system.
+"""
 
 from __future__ import annotations
 

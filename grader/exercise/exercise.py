@@ -17,15 +17,17 @@ from typing import Any
 from gz_course.grader.course_folder.material import material
 from gz_course.grader.errors import ManifestError, UsageError
 from gz_course.grader.exercise.grading import GRADING, MANIFEST, README, grading_files, grading_folder
+from gz_course.grader.exercise.leaderboard import Ranked, read_leaderboard
 from gz_course.grader.exercise.toml_table import Table
 from gz_course.grader.exercise.trial import (
     PUBLIC,
-    ScriptedCommand,
-    ScriptedParameter,
+    Entry,
     Trial,
     read_script,
     read_trials,
+    refuse_unknown_checks,
 )
+from gz_course.grader.exercise.visibility import ALWAYS, read_visibility
 from gz_course.grader.kinds.kind import find_kind, kind_names
 from gz_course.sim.did_you_mean import did_you_mean
 
@@ -43,6 +45,8 @@ class CheckSpec:
     kind: str
     hints: tuple[str, ...]  # from where to look, over the idea, to the idea in another case
     parameters: dict[str, Any] = field(default_factory=dict)
+    consequence_of: tuple[str, ...] = ()  # checks whose misconception may be why this one fails
+    visibility: str = ALWAYS  # to students: `visibility.py`
 
     @property
     def hint(self) -> str:
@@ -68,13 +72,16 @@ class Exercise:
     real_time_factor: float  # [s] simulated time in a second of the clocks of the computer
     bridge: Path | None  # bridges between simulator and ROS; None if the submission brings them
     observe: dict[str, str]  # ROS topics the student is to publish on -> type
-    script: tuple[ScriptedCommand | ScriptedParameter, ...]
+    script: tuple[Entry, ...]
     checks: tuple[CheckSpec, ...]
     files: tuple[str, ...] = ()  # further files that students edit, by their path beside `file`
     bridge_parameters: dict[str, str] = field(default_factory=dict)  # ROS parameters of the bridge
     hints_shown: int = MOST_HINTS  # of each check, at most
+    shows_change: bool = False  # `course explain` shows the change that helps, not only its place
     other_ways: tuple[str, ...] = ()  # to full marks, in words
     further: str = ""  # what to try after full marks
+    draft: bool = False  # not released yet
+    leaderboard: tuple[Ranked, ...] = ()  # numbers by which a class is ranked
     trials: tuple[Trial, ...] = (PUBLIC,)  # the public ones; a single one without parameters if the manifest lists none
 
     @property
@@ -174,6 +181,9 @@ def load_exercise(folder: Path) -> Exercise:
         checks=tuple(_check(path, check) for check in manifest.tables("check")),
         bridge_parameters=_texts(run.table("bridge_parameters", {})),
         hints_shown=_hints_shown(manifest),
+        shows_change=manifest.flag("shows_change", False),
+        draft=manifest.flag("draft", False),
+        leaderboard=read_leaderboard(manifest.tables("leaderboard", [])),
         other_ways=tuple(full_marks.texts("other_ways")) if full_marks.has("other_ways") else (),
         further=full_marks.text("further", ""),
         trials=read_trials(manifest.tables("trial", []), path, folder) or (PUBLIC,),
@@ -184,9 +194,18 @@ def load_exercise(folder: Path) -> Exercise:
         manifest.refuse("files", "paths of further files below the exercise's folder, each once")
     for table in (run, full_marks, manifest):
         table.end()
+    refuse_unknown_checks(exercise.trials, exercise.checks)
     ids = [check.id for check in exercise.checks]
     if twice := {i for i in ids if ids.count(i) > 1}:
         raise ManifestError(f"{path}: check id {sorted(twice)[0]!r} is used twice")
+    for ranked in exercise.leaderboard:
+        if ranked.check not in ids:
+            hint = did_you_mean(ranked.check, ids, listing="known")
+            raise ManifestError(f"{path}: leaderboard {ranked.name!r} names no check: {ranked.check!r}{hint}")
+    for check in exercise.checks:
+        for id in sorted(set(check.consequence_of) - (set(ids) - {check.id})):
+            hint = did_you_mean(id, ids, listing="known")
+            raise ManifestError(f"{path}: check {check.id!r}: consequence_of names no other check: {id!r}{hint}")
     return exercise
 
 
@@ -248,5 +267,7 @@ def _check(path: Path, table: Table) -> CheckSpec:
         points=table.number("points", above=0),
         kind=table.text("kind"),
         hints=_hints(table),
+        consequence_of=tuple(table.texts("consequence_of")) if table.has("consequence_of") else (),
+        visibility=read_visibility(table),
         parameters=table.rest(),
     )

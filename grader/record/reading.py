@@ -164,6 +164,20 @@ class Recording:
         """Return the facts stored under a name, or an empty dict."""
         return self.static(f"__properties/{name}")
 
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The parameters of the trial, by name."""
+        return dict(self._of_trial("trial_parameters").get("parameters", {}))
+
+    @property
+    def private(self) -> dict[str, Any]:
+        """The private data of the trial, by name; no submission has them."""
+        return self._of_trial("trial_private")
+
+    def _of_trial(self, key: str) -> dict[str, Any]:
+        found = json.loads(self.properties("run").get(key) or "{}")
+        return found if isinstance(found, dict) else {}
+
     def static(self, entity: str) -> dict[str, Any]:
         """Return the static components of an entity such as `world/robot/base_link/chassis`, by name."""
         values = {name: column[0].as_py() for name, column in self._static.get(entity, {}).items()}

@@ -79,9 +79,11 @@ def test_an_author_is_told_that_there_is_no_such_world(followed):
 
 
 def test_the_class_has_a_gradebook_with_the_scores_the_guide_leads_to(followed):
-    book = (followed[0] / "grades" / "gradebook.csv").read_text()
+    book = (followed[0] / "grades" / "gradebook.csv").read_text(encoding="utf-8-sig")
     rows = {line.split(",")[0]: line for line in book.splitlines()}
-    assert "100" in rows["ada"] and "50" in rows["grace"] and "student_error" in rows["linus"]
+    assert ",100,100,graded," in rows["ada"] and ",75,100,graded," in rows["grace"]
+    assert "quarter 0 -> 25 (by Ada: half of the turn)" in rows["grace"]
+    assert ",,100,excused," in rows["linus"] and "excused (ill)" in rows["linus"]
 
 
 def test_the_students_copy_holds_the_exercise_and_no_solution(followed):

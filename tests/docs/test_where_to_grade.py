@@ -15,6 +15,7 @@ def test_commands_have_their_options():
     for name, rest in called:
         options = {option for each in Commands(name="course").get_command(None, name).params for option in each.opts}
         assert set(re.findall(r"--[a-z-]+", rest)) <= options, name
+    assert {"--for", "--hidden", "--roster", "--out"} <= set(re.findall(r"--[a-z-]+", PAGE))
     export = {option for each in Commands(name="course").get_command(None, "export").params for option in each.opts}
     assert export - set(re.findall(r"--[a-z-]+", PAGE)) <= {"exercise", "grades", "--help"}, "every option is explained"
 

@@ -33,8 +33,15 @@ def test_without_a_command_it_helps(course):
     assert all(command in outcome.output for command in ("grade", "list", "score", "verify"))
 
 
-def test_help_is_no_error(course):
-    assert course("--help").code == 0
+def test_help_begins_with_ten_commands_at_most_for_a_student(course):
+    outcome = course("--help")
+    assert outcome.code == 0
+    sections = re.split(r"\n\n(?=[A-Z][a-z ]+:\n)", outcome.stdout.strip())
+    titles = [each.partition(":\n")[0] for each in sections[1:]]
+    assert titles == ["Options", "Commands", "For a running system", "For instructors"]
+    commands = [re.findall(r"^  ([a-z-]+) ", each, re.M) for each in sections[2:]]
+    assert len(commands[0]) <= 10 and {"grade", "hint", "list", "show"} <= {*commands[0]}
+    assert commands[1] == ["diagnose", "graph", "watch"] and "grade-all" in commands[2]
 
 
 def test_an_unknown_command(course):

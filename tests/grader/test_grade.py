@@ -61,17 +61,17 @@ def test_a_folder_without_recordings(tmp_path):
 
 @pytest.mark.proof
 def test_what_was_learnt_by_heart_is_found_out_by_hidden_trials(grade, course, root):
-    """The whole way: full marks in public, none where the world is another; scored again, the same."""
+    """The whole way: full marks in public, few points where the world is another; scored again, the same."""
     replay = root / "solutions/04_lidar_listener/rejected/replays_the_public_world"
     outcome = grade("04", replay, "--trials", "all")
     assert outcome.code == 1
     report = outcome.report
     assert [(trial["name"], trial["score"]) for trial in report["trials"]] == [
         ("public", 100),
-        ("from_the_north", 0),
-        ("turning_back", 0),
+        ("from_the_north", 10),
+        ("turning_back", 10),
     ]
-    assert report["score"] == 0 and report["diagnosis"].startswith("In the trial from_the_north: ")
+    assert report["score"] == 10 and report["diagnosis"].startswith("In the trial from_the_north: ")
     files = sorted(path.name for path in (outcome.folder / "out").glob("*.rrd"))
     assert files == [f"04_lidar_listener.{name}.rrd" for name in ("from_the_north", "public", "turning_back")]
     again = course("score", outcome.folder / "out", "--json", outcome.folder / "again.json")

@@ -72,7 +72,7 @@ def test_the_textbook_teleop_counts_ticks_and_is_told(grade):
 def test_the_textbook_lidar_listener_earns_the_log_part_and_is_told_what_it_lacks(grade):
     outcome = grade("04_lidar_listener", TEXTBOOK / "lidar_subscriber.py")
     assert (outcome.code, outcome.report["score"], outcome.report["outcome"]) == (1, 60, "graded")
-    assert outcome.failed() == {"publishes_nearest"}
+    assert outcome.failed() == {"arrives", "publishes_nearest"}
     assert "no publisher on /nearest_obstacle" in outcome.report["diagnosis"]
 
 

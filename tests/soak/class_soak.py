@@ -48,7 +48,7 @@ def run(folder: Path, students: int, jobs: int) -> Outcome:
     if process.returncode != 0:
         wrong.append(f"exit code {process.returncode}: {(folder / 'told').read_text()[-400:]}")
         return Outcome(lasting, [], wrong)
-    with (out / "gradebook.csv").open(newline="") as stream:
+    with (out / "gradebook.csv").open(newline="", encoding="utf-8-sig") as stream:
         outcomes = Counter(row["outcome"] for row in csv.DictReader(stream))
     counted = ", ".join(f"{count} {name}" for name, count in sorted(outcomes.items()))
     return Outcome(lasting, [f"{counted}; at most {most} temporary files and folders while it ran"], wrong)

@@ -31,11 +31,12 @@ KEY = re.compile(r"[\w/~.-]+:")
 
 def read(name: str, content: bytes) -> Config:
     """Read the entries of the file, including faulty ones."""
-    from gz_course.sim.bridge.ros_gz_bridge.checks import private_gz_names
+    from gz_course.sim.bridge.ros_gz_bridge.checks import private_gz_names, volatile_static_transforms
     from gz_course.sim.bridge.ros_gz_bridge.config import read_yaml
 
     config = read_yaml(content, name)
     config.findings += private_gz_names(config.topics, config.services)
+    config.findings += volatile_static_transforms(config.topics)
     return config
 
 

@@ -7,7 +7,8 @@ import io
 import re
 import tokenize
 import warnings
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.feedback.facts.clocks import time_reckoning, wall_clock
 from gz_course.grader.feedback.facts.logs import seldom_log, silent_log
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from gz_course.grader.run.run_loop import RunLoop
     from gz_course.grader.score.diagnosis import Diagnosis
     from gz_course.grader.submission import Submission
+    from gz_course.sim.bridge.ros_gz_bridge.entry import BridgeEntry
 
 # Functions of numbers and of lists: without them a file cannot hold some mistakes that fit a recording.
 OF_VALUES = frozenset({"cos", "sin", "min", "max", "nanmax", "argmax", "sum", "sorted", "sort", "percentile"}) | MEANS
@@ -76,38 +78,44 @@ def _not_a_text(name: str, content: bytes) -> str:
 def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the student's node beside the exercise's bridge; record suspicious places in the file as facts."""
     from gz_course.grader.run.exercise_bridge import exercise_bridge
-    from gz_course.grader.run.message_fields import float_fields, message_fields
 
     entries, content = exercise_bridge(exercise), submission.files[submission.main]
-    heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
-    names = sorted({name for trial in exercise.trials for name in trial.parameters})
     with faults_kept() as faults:
-        places = {
-            "before_speeds": before_speeds(content),
-            "called": [{"name": name} for name in sorted(called(parsed(content)) & OF_VALUES)],
-            "conditions": conditions(content),
-            "counters": counters(content),
-            "delays": delays(content),
-            "early_publishing": early_publishing(content),
-            "origins": origins(content),
-            "own_ends": own_ends(content),
-            "of_the_drive": of_the_drive(content),
-            "repetitions": repetitions(content),
-            "lookups": lookups(content),
-            "shared_headers": shared_headers(content),
-            "rhythm": rhythm(content),
-            "seldom_log": seldom_log(content),
-            "silent_log": silent_log(content),
-            "slips": slips(content, exercise.duration, message_fields(heard), names),
-            "suspects": suspects(content),
-            "time_reckoning": time_reckoning(content),
-            "wall_clock": wall_clock(content),
-            "whole_numbers": whole_numbers(content, float_fields(heard)),
-        }
+        places = _places(exercise, entries, content) if submission.explained else {}
     facts = {
         name: [{"file": shown(submission.main)} | place for place in found] for name, found in places.items() if found
     }
     return RunPlan(submission.main, submission.files, entries, facts | as_facts(faults), exercise.bridge_parameters)
+
+
+def _places(exercise: Exercise, entries: Sequence[BridgeEntry], content: bytes) -> dict[str, list[dict[str, Any]]]:
+    """Return what feedback finds in the file, by kind."""
+    from gz_course.grader.run.message_fields import float_fields, message_fields
+
+    heard = {e.ros_type for e in entries if e.direction.to_gz} | set(exercise.observe.values())
+    names = sorted({name for trial in exercise.trials for name in trial.parameters})
+    return {
+        "before_speeds": before_speeds(content),
+        "called": [{"name": name} for name in sorted(called(parsed(content)) & OF_VALUES)],
+        "conditions": conditions(content),
+        "counters": counters(content),
+        "delays": delays(content),
+        "early_publishing": early_publishing(content),
+        "origins": origins(content),
+        "own_ends": own_ends(content),
+        "of_the_drive": of_the_drive(content),
+        "repetitions": repetitions(content),
+        "lookups": lookups(content),
+        "shared_headers": shared_headers(content),
+        "rhythm": rhythm(content),
+        "seldom_log": seldom_log(content),
+        "silent_log": silent_log(content),
+        "slips": slips(content, exercise.duration, message_fields(heard), names),
+        "suspects": suspects(content),
+        "time_reckoning": time_reckoning(content),
+        "wall_clock": wall_clock(content),
+        "whole_numbers": whole_numbers(content, float_fields(heard)),
+    }
 
 
 def run_loop() -> type[RunLoop]:
@@ -125,6 +133,7 @@ def diagnosis() -> Diagnosis:
     from gz_course.grader.score.crash import survived
     from gz_course.grader.score.lost_numbers import lost_number
     from gz_course.grader.score.parameters_set import parameter_not_set
+    from gz_course.grader.score.services_called import service_without_answer
 
     return looks.Diagnosis(
         looks.outcome_of,
@@ -142,6 +151,7 @@ def diagnosis() -> Diagnosis:
             topic_faults.silent,
             looks.dropped,
             parameter_not_set,
+            service_without_answer,
             looks.unstable,
         ),
         (looks.slips, survived, looks.whole_number_fault, lost_number, clock_fault, topic_faults.too_early),

@@ -56,6 +56,7 @@ duration = 3
 tick = 0.25
 poses = { robot = [-2, 1, 0, 0, 0, 1.5] }
 parameters = { speed = 0.4, names = ["a"] }
+visibility = "after the deadline"
 
 [[trial.script]]
 at = 1
@@ -94,8 +95,9 @@ def test_every_key_is_read_and_only_the_name_is_needed(read):
         script=(ScriptedCommand(1, "/cmd_vel", 0.3, 0), ScriptedParameter(5, "/driver", "speed", 0.2)),
         parameters={"speed": 0.4, "names": ["a"]},
         tick=0.25,
+        visibility="after the deadline",
     )
-    assert plain == Trial("as_it_is", 0)
+    assert plain == Trial("as_it_is", 0, visibility="never")
 
 
 def test_a_trial_changes_what_it_names_and_nothing_else(read, root):

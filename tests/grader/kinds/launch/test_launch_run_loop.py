@@ -215,6 +215,22 @@ def test_create_puts_a_model_into_the_world_and_others_start_when_it_has(launch)
     assert "Entity creation successful" in run.log
 
 
+@pytest.mark.parametrize("arguments", ["-r", ""], ids=["running", "paused"])
+def test_create_that_waits_for_a_description_holds_nobody_up_and_ends_on_ctrl_c(launch, arguments):
+    run = launch(
+        f"""
+        gz("sim", "-s", *"{arguments}".split(), "empty.sdf"),
+        {CREATE.format('"-topic", "/nobody_publishes"')},
+        ExecuteProcess(cmd=["ros2", "run", "ros_gz_sim", "create", "-topic", "/nobody_either"]),
+        bridge(CLOCK),
+        """
+    )
+    assert run.pace == "lockstep"
+    assert (run.log.count("Waiting messages on topic"), run.log.count("no message came")) == (2, 0)
+    facts = run.facts
+    assert (facts["exit_code"], facts["left"], facts["escalated"], facts["ended_early"]) == (0, [], [], [])
+
+
 def test_what_python_starts_in_a_session_of_its_own_is_told_from_an_action(launch):
     run = launch(
         """
@@ -283,7 +299,8 @@ def test_a_simulator_that_runs_on_after_ctrl_c_is_named(launch):
 
 
 def test_a_program_of_python_that_runs_on_after_ctrl_c_is_named(launch):
-    popen = '__import__("subprocess").Popen(["ros2", "topic", "echo", "/clock"], start_new_session=True)'
+    echo = '["ros2", "topic", "echo", "/clock", "rosgraph_msgs/msg/Clock"]'
+    popen = f'__import__("subprocess").Popen({echo}, start_new_session=True)'
     run = launch(f'gz("sim", "-s", "-r", "shapes.sdf"), *([] if {popen} else []),')
     assert run.facts["by_python"] == run.facts["left"] == ["ros2"]
 
