@@ -38,7 +38,12 @@ def holders(a_few):
 
     def start(count):
         new = [
-            subprocess.Popen([sys.executable, "-c", HOLD, module.RESERVED_AS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            subprocess.Popen(
+                [sys.executable, "-c", HOLD, module.RESERVED_AS],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                text=True,
+            )
             for _ in range(count)
         ]
         started.extend(new)
