@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gz_course.sim.gz.sim.errors import SdfError
-from gz_course.sim.gz.sim.systems.beyond_the_course.lift_drag import LiftDrag
+from gz_course.sim.gz.sim.systems.lift_drag import LiftDrag
 from gz_course.sim.gz.sim.world import World
 from gz_course.tests.sim.gz.sim.systems.floating_world import body
 from gz_course.tests.sim.gz.sim.systems.motion_world import arm, plugin, world

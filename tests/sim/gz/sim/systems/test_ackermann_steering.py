@@ -13,7 +13,7 @@ from gz_course.sim.gz.msgs.double_pb2 import Double
 from gz_course.sim.gz.msgs.odometry_pb2 import Odometry
 from gz_course.sim.gz.msgs.twist_pb2 import Twist
 from gz_course.sim.gz.sim.errors import SdfError
-from gz_course.sim.gz.sim.systems.beyond_the_course.ackermann_steering import AckermannSteering
+from gz_course.sim.gz.sim.systems.ackermann_steering import AckermannSteering
 from gz_course.sim.gz.sim.world import World
 from gz_course.sim.gz.transport import Node
 from gz_course.tests.sim.gz.sim.systems.motion_world import plugin, world

@@ -27,7 +27,7 @@ from gz_course.sim.gz.sim.plugins.topics import valid_topic
 from gz_course.sim.gz.sim.pose import Vector, rotate
 from gz_course.sim.gz.sim.sdf.description import Model, Plugin
 from gz_course.sim.gz.sim.sdf.element import Element
-from gz_course.sim.gz.sim.systems.beyond_the_course.track_controller import TrackController
+from gz_course.sim.gz.sim.systems.track_controller import TrackController
 
 if TYPE_CHECKING:
     from gz_course.sim.gz.sim.plugins.world_access import WorldAccess
