@@ -21,7 +21,13 @@ ROOM = Path(gz_sim_world.__file__).parent
 WORLDS = sorted(path.name for path in (ROOM / "worlds").glob("*.sdf"))
 MODELS = sorted(path.name for path in (ROOM / "models").iterdir())
 README = (ROOM / "README.md").read_text(encoding="utf-8")
-FAST = {"rolling_shapes.sdf", "auto_inertia_rolling_shapes.sdf", "contact_sensor.sdf", "buoyancy.sdf"}
+FAST = {
+    "rolling_shapes.sdf",
+    "auto_inertia_rolling_shapes.sdf",
+    "contact_sensor.sdf",
+    "buoyancy.sdf",
+    "graded_buoyancy.sdf",
+}
 """In these worlds something rolls, sinks or rises ever faster."""
 
 
@@ -111,8 +117,14 @@ OF_GAZEBO = {
         "submarine submarine_sinking submarine_buoyant",
         "/model/submarine/joint/propeller_joint/cmd_force",
     ),
+    "graded_buoyancy": (
+        "buoyancy",
+        "water_plane lighter_than_water balloon_lighter_than_air box_neutral_buoyancy box_negative_buoyancy "
+        "box_neutral_buoyancy_collision_offset multi_collision_neutral_buoyancy box_no_buoyancy",
+        "/world/buoyancy/dynamic_pose/info",
+    ),
 }
-WITHOUT_GROUND = {"joint_controller", "joint_position_controller", "buoyancy"}
+WITHOUT_GROUND = {"joint_controller", "joint_position_controller", "buoyancy", "graded_buoyancy"}
 
 
 @pytest.mark.parametrize("name", OF_GAZEBO)
@@ -339,3 +351,14 @@ def test_one_submarine_stays_one_sinks_one_rises_and_the_first_is_driven(node: N
     send(node, "/model/submarine/joint/propeller_joint/cmd_force", "gz.msgs.Double", "data: 1.2")
     world.step(8000)
     assert abs(world.truth.pose("submarine").position[1]) > 0.2
+
+
+def test_what_is_light_floats_between_water_and_air() -> None:
+    world = World.load("graded_buoyancy.sdf")
+    names = world.truth.model_names()
+    before = {name: world.truth.pose(name).position[2] for name in names}
+    world.step(3000)
+    rise = {name: float(world.truth.pose(name).position[2] - before[name]) for name in names}
+    assert rise.pop("balloon_lighter_than_air") > 10.0 and rise.pop("lighter_than_water") == pytest.approx(0, abs=0.2)
+    assert rise.pop("box_no_buoyancy") < rise.pop("box_negative_buoyancy") < -2.0
+    assert len(rise) == 3 and list(rise.values()) == pytest.approx([0.0] * 3, abs=0.01)
