@@ -1,6 +1,7 @@
 """The zip from which Gradescope builds an autograder: the course's programs, one exercise, its hidden trials.
 
-`setup.sh` installs the course when the autograder is built, `run_autograder` grades one submission and always writes
+The programs are those of the checkout; where the course is installed from a wheel, they are that wheel. `setup.sh`
+installs the course when the autograder is built, `run_autograder` grades one submission and always writes
 `results.json`. Both expect their files below `/autograder`, or below AUTOGRADER_ROOT. The zip holds no solutions. Used
 by `course package`.
 
@@ -12,9 +13,9 @@ from __future__ import annotations
 import shlex
 from pathlib import Path
 
-from gz_course.grader.errors import UsageError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.bundle import bundle
+from gz_course.grader.package.installed_wheel import installed_versions, installed_wheel
 from gz_course.grader.package.question import all_trials, filled, seconds_for, write_zip
 from gz_course.grader.run.sandbox import OFFICIAL, level_module
 from gz_course.grader.submission.intake import is_junk
@@ -30,7 +31,8 @@ PROGRAMS = ("setup.sh", "run_autograder")
 def package(exercise: Exercise, target: Path, trials: str | None = None, demand: str = OFFICIAL) -> list[str]:
     """Write the zip; return the names in it. `trials` is as for `course grade`; None: all, including hidden ones.
 
-    Raises UsageError if the zip cannot be written, if there are no such trials, or without a checkout of the course.
+    Raises UsageError if the zip cannot be written, if there are no such trials, or if the course is neither
+    a checkout nor installed from a wheel.
     """
     level_module(demand)
     trials = all_trials(exercise) if trials is None else trials
@@ -52,9 +54,9 @@ def package(exercise: Exercise, target: Path, trials: str | None = None, demand:
 
 
 def _programs() -> dict[str, bytes]:
-    missing = [name for name in (*CODE, *FILES) if not (CHECKOUT / name).exists()]
-    if missing:
-        raise UsageError(f"{CHECKOUT} lacks {missing[0]}; package from a checkout of the course, not an installation")
+    if not all((CHECKOUT / name).exists() for name in (*CODE, *FILES)):
+        name, wheel = installed_wheel()
+        return {name: wheel, "constraints.txt": installed_versions()}
     found = {name: (CHECKOUT / name).read_bytes() for name in FILES}
     for top in CODE:
         for path in sorted((CHECKOUT / top).rglob("*")):

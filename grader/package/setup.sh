@@ -20,11 +20,12 @@ fi
 # With it submissions are locked in more firmly.
 command -v bwrap >/dev/null || apt-get install -y bubblewrap || true
 
-# Who unpacks a zip may drop what is a program; `ros2 run` starts these.
-grep -rlIZ '^#!' "$root/source/course/sim/ros/prefix" | xargs -0 chmod +x
+# The programs are a wheel, or the folder itself; who unpacks a zip may drop what is a program, and `ros2 run` starts these.
+course="$(ls "$root"/source/course/*.whl 2>/dev/null || echo "$root/source/course")"
+if [ -d "$course" ]; then grep -rlIZ '^#!' "$course/sim/ros/prefix" | xargs -0 chmod +x; fi
 
 "$python" -m venv "$root/venv"
-"$root/venv/bin/pip" install --disable-pip-version-check --constraint "$root/source/course/constraints.txt" "$root/source/course"
+"$root/venv/bin/pip" install --disable-pip-version-check --constraint "$root/source/course/constraints.txt" "$course"
 chmod -R go-rwx "$root/source"  # submissions that run as another user do not read it
 COURSE_ROOT="$root/source/course" "$root/venv/bin/course" doctor || true
 echo "Submissions are graded in a sandbox of level @DEMAND@ or better. If the course doctor names a lower one for this"
