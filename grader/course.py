@@ -17,7 +17,7 @@ import typer
 from typer.core import TyperGroup
 
 from gz_course.grader import commands
-from gz_course.grader.errors import CourseError, UsageError
+from gz_course.grader.errors import CourseError, Interrupted, UsageError
 from gz_course.grader.process.interruption import end_on
 from gz_course.grader.registry import module_names
 from gz_course.sim.did_you_mean import did_you_mean
@@ -46,6 +46,12 @@ class Commands(TyperGroup):
         app = typer.Typer(add_completion=False, rich_markup_mode=None)
         app.command(name)(importlib.import_module(f"{commands.__name__}.{name.replace('-', '_')}").command)
         return typer.main.get_command(app)
+
+    def invoke(self, context: Any) -> Any:
+        try:
+            return super().invoke(context)
+        except KeyboardInterrupt:  # Typer would end without a word
+            raise Interrupted("interrupted") from None
 
     def format_commands(self, context: Any, formatter: Any) -> None:
         folder = Path(commands.__path__[0])

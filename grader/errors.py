@@ -32,3 +32,9 @@ class ManifestError(CourseError):
 
 class InfrastructureError(CourseError):
     """The machine or the grader failed (exit code 3, costs the student no points)."""
+
+
+class Interrupted(CourseError):
+    """The user pressed Ctrl-C (exit code 130, as a shell has it)."""
+
+    exit_code = 130

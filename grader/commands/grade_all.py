@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from gz_course.grader.console import GuardedConsole
-from gz_course.grader.errors import UsageError
+from gz_course.grader.errors import Interrupted, UsageError
 from gz_course.grader.exercise import find_exercise
 from gz_course.grader.printable import shown
 from gz_course.grader.report.format import with_report_flags
@@ -156,9 +156,11 @@ def _graded(
     try:
         with progress:
             return run.grade(found, told, jobs=jobs, dask=dask)
-    except (KeyboardInterrupt, SystemExit):
+    except (KeyboardInterrupt, SystemExit) as end:
         console.print(f"stopped: {count} of {len(found)} are done; the same command goes on from there")
-        raise
+        if isinstance(end, SystemExit):
+            raise
+        raise typer.Exit(Interrupted.exit_code) from None
 
 
 def _said_by_others(when: Callable[[Found], Submitted | None]) -> Callable[[Found], str | None]:
@@ -183,7 +185,7 @@ def _explain(run: ClassRun, found: list[Found], results: list[dict[str, Any]], c
         explain_class(run.exercise, run.out, results, found, run.trials, run.level_and_jobs(None)[0], told)
     except KeyboardInterrupt:
         console.print("stopped: what was found is kept; the same command goes on from there")
-        raise
+        raise typer.Exit(Interrupted.exit_code) from None
     finally:
         write_index(run.out, run.exercise, results, run.reports)
 

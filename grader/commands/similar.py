@@ -22,11 +22,15 @@ def command(
     threshold: Annotated[
         float, typer.Option(min=0.1, max=1.0, help="Least share of a text that another has, too, to be listed.")
     ] = 0.6,
+    map_file: Annotated[
+        Path | None, typer.Option("--map", metavar="FILE", help="Whose a GitHub login is, as for course grade-all.")
+    ] = None,
 ) -> None:
     """Compare the submissions of a class. Starter code is left out; nothing of a submission is run.
 
     Exit code 0, whatever is found; 2: usage. No score depends on it.
     """
+    from gz_course.grader.learning_platforms.login_map import read_login_map
     from gz_course.grader.similarity.class_texts import given_code, submitted_texts
     from gz_course.grader.similarity.pairs import find_similar
     from gz_course.grader.similarity.report import PAGE, write_report
@@ -35,8 +39,9 @@ def command(
     chosen = find_exercise(exercise)
     if not submissions.exists():
         raise UsageError(f"there is no {submissions}; give a folder or a zip with the submissions")
+    people = read_login_map(map_file) if map_file is not None else None
     with ExitStack() as stack:
-        found, _ = find_submissions(submissions, chosen, stack)
+        found, _ = find_submissions(submissions, chosen, stack, people)
         texts, unread = submitted_texts(found)
     similar = find_similar([each.text for each in texts], given_code(chosen), threshold)
     write_report(out, f"{chosen.name}: {chosen.title}", texts, similar, threshold)

@@ -179,3 +179,15 @@ def test_the_command(root, tmp_path, capsys):
     (tmp_path / "file").write_text("")
     with pytest.raises(UsageError, match="cannot be written"):
         command("04", folder, tmp_path / "file" / "out", 0.6)
+
+
+def test_clones_of_github_classroom_have_the_names_of_the_map(root, tmp_path):
+    solution = root / "solutions/04_lidar_listener"
+    file = find_exercise("04_lidar_listener", root).file
+    for folder in ("04-lidar-ada99", "04-lidar-eve"):
+        (tmp_path / "class" / folder).mkdir(parents=True)
+        (tmp_path / "class" / folder / file).write_bytes((solution / file).read_bytes())
+    (tmp_path / "map.csv").write_text("login,student\nada99,Ada L\neve,Eve\n")
+    command("04", tmp_path / "class", tmp_path / "out", 0.6, tmp_path / "map.csv")
+    (row,) = csv.DictReader(io.StringIO((tmp_path / "out" / CSV).read_text()))
+    assert {row["student_a"], row["student_b"]} == {"Ada L", "Eve"}
