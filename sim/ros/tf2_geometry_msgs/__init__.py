@@ -1,9 +1,22 @@
 """Functions that transform messages of geometry_msgs, in place of the `tf2_geometry_msgs` package.
 
-Importing it registers them, so that `Buffer.transform` takes these messages.
+Importing it registers them, so that `Buffer.transform` takes these messages. As there, the message classes are names of
+this package, too.
 
 Source: tf2_geometry_msgs/src/tf2_geometry_msgs/tf2_geometry_msgs.py of https://github.com/ros2/geometry2
 """
+
+from geometry_msgs.msg import (
+    Point,
+    Point32,
+    PointStamped,
+    PolygonStamped,
+    Pose,
+    PoseStamped,
+    PoseWithCovarianceStamped,
+    TransformStamped,
+    Vector3Stamped,
+)
 
 from gz_course.sim.ros.tf2_geometry_msgs.tf2_geometry_msgs import (
     do_transform_point,
@@ -22,6 +35,15 @@ from gz_course.sim.ros.tf2_geometry_msgs.tf2_geometry_msgs import (
 )
 
 __all__ = [
+    "Point",
+    "Point32",
+    "PointStamped",
+    "PolygonStamped",
+    "Pose",
+    "PoseStamped",
+    "PoseWithCovarianceStamped",
+    "TransformStamped",
+    "Vector3Stamped",
     "do_transform_point",
     "do_transform_polygon_stamped",
     "do_transform_pose",

@@ -12,6 +12,9 @@ from tf2_ros.buffer import Buffer
 from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 from tf2_ros.transform_broadcaster import TransformBroadcaster
 from tf2_ros.transform_listener import TransformListener
+from tf2_geometry_msgs import Point, PointStamped, PolygonStamped, Pose, PoseStamped
+from tf2_ros import Duration, Header, TFMessage, Time, TransformBroadcaster, TransformListener, TransformStamped
+assert TransformStamped is tf2_geometry_msgs.TransformStamped is __import__("geometry_msgs.msg").msg.TransformStamped
 assert Buffer is tf2_ros.Buffer and LookupException is tf2_py.LookupException
 assert do_transform_point is tf2_geometry_msgs.do_transform_point
 """
