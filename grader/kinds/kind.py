@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,16 +30,22 @@ class RunPlan:
     """What runs beside the simulator.
 
     `program` names the file among `files` that is started in the sandbox. `entries` are the bridges between simulator
-    and ROS that exist from the beginning, `parameters` the ROS parameters of their bridge. `facts` are recorded
-    unchanged. `beside` are the files of a sandbox beside it, in which the exercise's own node runs, if it has any.
+    and ROS that exist from the beginning, `parameters` the ROS parameters of their bridge. `read` reads the
+    submission's files for what is recorded about them: `facts`, which are asked for while the program starts. `beside`
+    are the files of a sandbox beside it, in which the exercise's own node runs, if it has any.
     """
 
     program: str
     files: dict[str, bytes]
     entries: list[BridgeEntry] = field(default_factory=list)
-    facts: dict[str, Any] = field(default_factory=dict)
+    read: Callable[[], dict[str, Any]] = dict
     parameters: dict[str, str] = field(default_factory=dict)
     beside: dict[str, bytes] = field(default_factory=dict)
+
+    @cached_property
+    def facts(self) -> dict[str, Any]:
+        """What the submission's files say, recorded unchanged."""
+        return self.read()
 
     @property
     def kept(self) -> dict[str, str]:

@@ -9,13 +9,13 @@ import contextlib
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gz_course.grader.errors import ManifestError
 from gz_course.grader.exercise import Exercise
 from gz_course.grader.exercise.trial import Trial
 from gz_course.grader.kinds.given_node import APART, EXERCISE_NODE
-from gz_course.grader.kinds.kind import find_kind
+from gz_course.grader.kinds.kind import RunPlan, find_kind
 from gz_course.grader.printable import shown
 from gz_course.grader.process.many_imports import many_imports
 from gz_course.grader.process.temporary_folder import sweep
@@ -34,6 +34,10 @@ from gz_course.sim.bridge.ros_gz_bridge.qos_profile import reliable
 
 if TYPE_CHECKING:
     from gz_course.grader.record.recorder import Recorder
+
+
+# What the files of a submission say, by all that this depends on: the same in each trial. One submission is kept.
+_SAID: dict[tuple[str, float, frozenset[tuple[str, bytes]], bool], dict[str, Any]] = {}
 
 
 @dataclass(frozen=True)
@@ -101,6 +105,7 @@ def run(
         processes = SubmissionProcesses(command, sandbox, topics, variables, shown=str(folder), beside=beside)
         stack.callback(processes.close)
         stack.enter_context(in_force(sandbox.grader_environment()))
+        read = _read(plan, exercise, submission)
 
         with many_imports():
             leave_out_generator()
@@ -120,5 +125,14 @@ def run(
             facts = loop.run(recorder)
             begin = untouched(exercise, submission.main, submission.files)
             more = {"untouched": begin} if begin else {}
-            write_properties(recorder, exercise, submission, trial, plan.facts | facts | more)
+            write_properties(recorder, exercise, submission, trial, read | facts | more)
         return RunResult(recorder, sandbox.level, loop.pace_name, loop.wall_seconds)
+
+
+def _read(plan: RunPlan, exercise: Exercise, submission: Submission) -> dict[str, Any]:
+    """Return what the files of a submission say; they are read once for all its trials."""
+    key = (exercise.name, exercise.duration, frozenset(submission.files.items()), submission.explained)
+    if key not in _SAID:
+        _SAID.clear()
+        _SAID[key] = plan.facts
+    return _SAID[key]

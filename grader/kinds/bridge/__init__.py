@@ -96,7 +96,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
         for finding in config.findings
     ]
     lazy = [_ros_name(entry.ros_topic) for entry in config.tolerant().topics if entry.lazy]
-    return RunPlan(EXERCISE_NODE, exercise_node(exercise), usable(config), {"lint": found, "lazy": lazy})
+    return RunPlan(EXERCISE_NODE, exercise_node(exercise), usable(config), lambda: {"lint": found, "lazy": lazy})
 
 
 KIND = Kind((".yaml", ".yml"), fault, plan, node_command, run_loop, diagnosis, brings_bridge=True)

@@ -47,9 +47,13 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     beside = [path for path in exercise.folder.iterdir() if path.is_file() and path.name not in own]
     beside += [path for path in exercise.folder.glob(f"{WORLDS}/*") if path.is_file()]
     given = {path.relative_to(exercise.folder).as_posix(): path.read_bytes() for path in beside}
-    with faults_kept() as faults:
-        places = _places(submission, exercise.duration) if submission.explained else {}
-    return RunPlan(submission.main, submission.files | given, facts=places | as_facts(faults))
+
+    def read() -> dict[str, Any]:
+        with faults_kept() as faults:
+            places = _places(submission, exercise.duration) if submission.explained else {}
+        return places | as_facts(faults)
+
+    return RunPlan(submission.main, submission.files | given, read=read)
 
 
 def _places(submission: Submission, duration: float) -> dict[str, list[dict[str, Any]]]:

@@ -79,13 +79,17 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     """Run the student's node beside the exercise's bridge; record suspicious places in the file as facts."""
     from gz_course.grader.run.exercise_bridge import exercise_bridge
 
-    entries, content = exercise_bridge(exercise), submission.files[submission.main]
-    with faults_kept() as faults:
-        places = _places(exercise, entries, content) if submission.explained else {}
-    facts = {
-        name: [{"file": shown(submission.main)} | place for place in found] for name, found in places.items() if found
-    }
-    return RunPlan(submission.main, submission.files, entries, facts | as_facts(faults), exercise.bridge_parameters)
+    entries = exercise_bridge(exercise)
+
+    def read() -> dict[str, Any]:
+        content = submission.files[submission.main]
+        with faults_kept() as faults:
+            places = _places(exercise, entries, content) if submission.explained else {}
+        file = {"file": shown(submission.main)}
+        facts = {name: [file | place for place in found] for name, found in places.items() if found}
+        return facts | as_facts(faults)
+
+    return RunPlan(submission.main, submission.files, entries, read, exercise.bridge_parameters)
 
 
 def _places(exercise: Exercise, entries: Sequence[BridgeEntry], content: bytes) -> dict[str, list[dict[str, Any]]]:

@@ -35,7 +35,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
     found = node_plan(exercise, submission)
     given = {f"{APART}/{name}": content for name, content in exercise_node(exercise).items()}
     packages = {name: content for name, content in found.files.items() if "/" in name}
-    return RunPlan(found.program, found.files, found.entries, found.facts, beside=packages | given)
+    return RunPlan(found.program, found.files, found.entries, found.read, beside=packages | given)
 
 
 def command(program: Path, trial: Trial) -> list[str]:

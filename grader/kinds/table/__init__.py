@@ -128,7 +128,7 @@ def plan(exercise: Exercise, submission: Submission) -> RunPlan:
 
     rows = read(submission.main, submission.files[submission.main])
     entries = exercise_bridge(exercise)
-    return RunPlan(EXERCISE_NODE, exercise_node(exercise), entries, {"table": rows}, exercise.bridge_parameters)
+    return RunPlan(EXERCISE_NODE, exercise_node(exercise), entries, lambda: {"table": rows}, exercise.bridge_parameters)
 
 
 KIND = Kind((".yaml", ".yml"), fault, plan, node_command, run_loop, diagnosis)
