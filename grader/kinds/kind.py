@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,7 +41,7 @@ class RunPlan:
     parameters: dict[str, str] = field(default_factory=dict)
     beside: dict[str, bytes] = field(default_factory=dict)
 
-    @cached_property
+    @property
     def facts(self) -> dict[str, Any]:
         """What the submission's files say, recorded unchanged."""
         return self.read()

@@ -49,10 +49,6 @@ class _Finder:
 class _Loader(SourceFileLoader):
     """Loads the `__init__.py` of a package without what it only passes on."""
 
-    def get_code(self, fullname: str) -> CodeType:
-        """Compile all of the file."""
-        return self._code(fullname)[0]
-
     def _code(self, name: str) -> tuple[CodeType, dict[str, tuple[str, str]]]:
         """Return the code, and the names that it leaves out with the modules and the names they have there."""
         tree = ast.parse(self.get_data(self.path), self.path)

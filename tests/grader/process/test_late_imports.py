@@ -59,7 +59,7 @@ def test_a_package_gives_the_same(tmp_path, prepare):
 
 # Of each name in Rerun's packages: the module and the name of its class or function.
 NAMES = """
-import json, types
+import json
 {prepare}
 import rerun, rerun.blueprint, rerun.chunk
 if {late}:
